@@ -103,6 +103,7 @@ if TYPE_CHECKING:
     from polhode.model import Coulomb as Coulomb
     from polhode.model import Cylinder as Cylinder
     from polhode.model import Damper as Damper
+    from polhode.model import DrillingFriction as DrillingFriction
     from polhode.model import Ellipsoidal as Ellipsoidal
     from polhode.model import Face as Face
     from polhode.model import Force as Force
@@ -128,6 +129,7 @@ if TYPE_CHECKING:
     from polhode.model import Revolution as Revolution
     from polhode.model import Rim as Rim
     from polhode.model import Rolling as Rolling
+    from polhode.model import RollingResistance as RollingResistance
     from polhode.model import Rope as Rope
     from polhode.model import Round as Round
     from polhode.model import Screw as Screw
@@ -226,11 +228,11 @@ _NAMES = {
     """,
     "model": """
         About Action Body BodyPoint CentralForce Components Cone Constraint Coulomb Cylinder Damper
-        Ellipsoidal Face Force Frame Free Gear Graph Gravity Guide Hinge Hold KnifeEdge Load
-        MagneticMoment Motor Parametric Pivot Plane Potential Profile Rack Relative Revolution Rim
-        Rolling Rope Round Screw Sheet Slider Smooth Sphere Spring Surface System Torque
-        TorsionDamper TorsionSpring Torus Turntable Universal Weld WithAxes cylinder disk earth
-        ellipsoid hoop point_mass rod sphere upright with_edge with_friction
+        DrillingFriction Ellipsoidal Face Force Frame Free Gear Graph Gravity Guide Hinge Hold
+        KnifeEdge Load MagneticMoment Motor Parametric Pivot Plane Potential Profile Rack Relative
+        Revolution Rim Rolling RollingResistance Rope Round Screw Sheet Slider Smooth Sphere Spring
+        Surface System Torque TorsionDamper TorsionSpring Torus Turntable Universal Weld WithAxes
+        cylinder disk earth ellipsoid hoop point_mass rod sphere upright with_edge with_friction
     """,
     "simulate": "Pieces Trajectory approximated export load read_sheet sampled simulate",
     "solution": "Solution solution write_solution",

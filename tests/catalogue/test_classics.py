@@ -107,6 +107,16 @@ def test_a_tippe_top_turns_over() -> None:
     assert theta[-1] > 2.4
 
 
+def test_eulers_disk_stops_at_a_finite_time() -> None:
+    """3/2 m g a θ̇ = -μ m g a Ω with Ω² = 4 g/(a θ), while it is flat and slow to change."""
+    known, motion = values("eulers-disk"), run("eulers-disk")
+    (flat,) = of_kind("eulers-disk", "goes flat")
+    left = flat.time * np.array([0.2, 0.4])
+    theta = [float(motion.evaluate("theta", flat.time - t)) for t in left]
+    rate = known["mu"] * np.sqrt(4 * G / known["a"])
+    assert theta == pytest.approx((rate * left) ** (2 / 3), rel=1e-2)
+
+
 def test_a_cue_ball_ends_rolling() -> None:
     """v = (5 v₀ + 2 a ω₀ × n)/7, whatever the friction."""
     final, a = run("cue-ball"), values("cue-ball")["a"]

@@ -94,6 +94,11 @@ SYSTEMS = {
         ),
         name="on the Earth",
     ),
+    "resistance": ph.System(
+        roll := ph.Rolling(ball(), on=FLOOR),
+        ph.RollingResistance(roll, mu=mu, mu_static=2 * mu, viscous=1, force="Q"),
+        ph.DrillingFriction(roll, mu=a, stribeck=1, name="spinning"),
+    ),
     "cylinder": ph.System(
         ph.Rolling(ph.cylinder("can", mass=m, radius=a, height=3 * a, axes=AXES), on=FLOOR),
         independent=(theta.dt(),),

@@ -138,3 +138,45 @@ def _turned(axis: Array, angle: Array) -> Array:
         + np.cross(along, axis) * np.sin(size)
         + along * (along @ axis) * (1 - np.cos(size))
     )
+
+
+@dataclass(frozen=True)
+class RestingBall:
+    """A ball, k = I/(m a²), that slides, rolls and spins on a level table until it rests.
+
+    Coefficients of sliding friction, of rolling resistance, and of friction against spinning over
+    the radius. `spin` is a ω·ẑ, and `rim` as in a `State`.
+    """
+
+    k: float
+    sliding: float
+    rolling: float
+    spinning: float
+    g: float
+
+    def follow(
+        self, velocity: complex, rim: complex, spin: float, duration: float, steps: int
+    ) -> tuple[complex, complex, float, complex]:
+        """Velocity, rim, spin and place a duration later, from the origin."""
+        h, place = duration / steps, 0j
+        weight = self.g * h
+        for _ in range(steps):
+            # Each law in turn, with the impulses of the other, until both hold at the end of the
+            # step: slip = v - rim changes by (1 + 1/k) of the first, rim by 1/k of the second.
+            rubbed, resisted = 0j, 0j
+            for _ in range(_ROUNDS):
+                slip = (velocity - rim) - resisted / self.k
+                rubbed = _opposing(slip, self.sliding * weight, 1 + 1 / self.k)
+                turning = rim - rubbed / self.k
+                resisted = _opposing(turning, self.rolling * weight, 1 / self.k)
+            velocity += rubbed
+            rim += (resisted - rubbed) / self.k
+            spin += _opposing(spin, self.spinning * weight, 1 / self.k).real / self.k
+            place += h * velocity
+        return velocity, rim, spin, place
+
+
+def _opposing(speed: complex, most: float, felt: float) -> complex:
+    """The impulse that brings a speed to zero, or towards it where that exceeds the most."""
+    needed = -speed / felt
+    return needed if abs(needed) <= most else needed * most / abs(needed)

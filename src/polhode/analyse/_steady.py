@@ -458,7 +458,7 @@ def _branches(relation: Expr, system: Reduced) -> tuple[Branch, ...]:
     """
     inside = [s for s in system.speeds if s in relation.symbols()]
     for symbol in sorted(inside, key=lambda s: (s.kind is SymbolKind.SPEED, s.published)):
-        if relation - taylor(relation, symbol, 2):
+        if not _is_quadratic(relation, symbol):
             continue
         slope, at_zero = relation.diff(symbol), {symbol: ZERO}
         a, b, c = slope.diff(symbol) / 2, slope.subs(at_zero), relation.subs(at_zero)
@@ -474,6 +474,17 @@ def _branches(relation: Expr, system: Reduced) -> tuple[Branch, ...]:
         values = ((-b / shared + sign * root) * shared / (2 * a) for sign in (ONE, -ONE))
         return tuple(Branch(quantity, value, (exists,)) for value in values)
     return ()
+
+
+def _is_quadratic(relation: Expr, symbol: Symbol) -> bool:
+    """Whether a relation is a polynomial in a speed, at most quadratic.
+
+    That of friction is none: it has the slip speed below a line, or in a root.
+    """
+    within = (Expr.generator(g) for g in relation.generators if g != symbol)
+    if symbol in relation.denominator.symbols() or any(symbol in e.symbols() for e in within):
+        return False
+    return not relation - taylor(relation, symbol, 2)
 
 
 def _shared(one: Expr, other: Expr) -> Expr:

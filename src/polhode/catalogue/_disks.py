@@ -1,4 +1,4 @@
-"""Problems 1 and 2: a coin that spins on a frictionless table, and a disk that rolls."""
+"""Problems 1 and 2, a coin that spins and a disk that rolls, and Euler's disk."""
 
 import polhode as ph
 from polhode.catalogue._entry import GRAVITY, CatalogueEntry, Parameter
@@ -70,4 +70,34 @@ ROLLING_DISK = CatalogueEntry(
     start={"theta": "80 deg", "phi_dot": "1 rad/s", "omega_3": "40 rad/s"},
     duration="10 s",
     plots=(("theta",), ("phi_dot", "omega_3"), ("F_x", "F_y", "F_z")),
+)
+
+
+def _eulers_disk() -> ph.System:
+    m, a, g, mu = ph.symbols("m a g mu", positive=True)
+    lab = ph.Frame("lab")
+    disk = ph.disk("disk", mass=m, radius=a, axes=_following_axes(lab))
+    ground = ph.Rolling(disk, on=ph.Plane(lab), name="ground")
+    resistance = ph.RollingResistance(ground, mu=mu)
+    return ph.System(ground, resistance, ph.Gravity(g), name="eulers-disk")
+
+
+EULERS_DISK = CatalogueEntry(
+    name="eulers-disk",
+    title="Euler's disk",
+    about=(
+        "A disk whirls on a table ever flatter and ever faster, and stops at a finite time. "
+        "Resistance acts along its rim, in proportion to the normal force."
+    ),
+    whatever_touches="A disk whirls on a table ever flatter and ever faster.",
+    build=_eulers_disk,
+    parameters=(
+        Parameter("m", "kg", "0.44 kg", "mass of the disk"),
+        Parameter("a", "m", "38 mm", "radius of the disk"),
+        Parameter("mu", "", "0.0005", "coefficient of rolling resistance"),
+        GRAVITY,
+    ),
+    start={"theta": "15 deg", "phi_dot": "63 rad/s"},
+    duration="10 s",
+    plots=(("theta",), ("phi_dot", "omega_3"), ("F_z", "R")),
 )

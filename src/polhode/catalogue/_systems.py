@@ -7,7 +7,7 @@ from polhode.catalogue._balls_on_a_table import CUE_BALL, SUPERBALL, TWO_BALLS
 from polhode.catalogue._balls_on_surfaces import IN_BOWL, IN_CONE, IN_CYLINDER, ON_SPHERE
 from polhode.catalogue._cylinders import IN_CYLINDER as CYLINDER_IN_CYLINDER
 from polhode.catalogue._cylinders import ON_WEDGE
-from polhode.catalogue._disks import ROLLING_DISK, SPINNING_COIN
+from polhode.catalogue._disks import EULERS_DISK, ROLLING_DISK, SPINNING_COIN
 from polhode.catalogue._entry import CatalogueEntry
 from polhode.catalogue._gyrocompass import GYROCOMPASS, MOTOR_DRIVEN
 from polhode.catalogue._gyroscope import GYROSCOPE, HELD, IN_VERTICAL_PLANE, UPRIGHT
@@ -47,6 +47,7 @@ CLASSICS: dict[str, CatalogueEntry] = {
         CYLINDER_IN_CYLINDER,
         LADDER,
         TIPPE_TOP,
+        EULERS_DISK,
         CUE_BALL,
         SUPERBALL,
         TWO_BALLS,

@@ -96,7 +96,7 @@ def _split(load: Load, action: Action, names: list[Symbol]) -> tuple[tuple[Actio
 def _refuse_unknown(motion: Kinematics, load: Load, names: list[Symbol]) -> None:
     known = [r.name for group in motion.restraints.values() for r in group]
     for element in motion.elements:
-        known += [name for f in element.friction(motion.places) for name, _ in f.directions]
+        known += [name for f in element.friction(motion.places) for name in f.names]
     allowed = {*known, *_absent(motion)}
     for symbol in names:
         if symbol.order or symbol.name not in allowed:

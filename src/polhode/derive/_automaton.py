@@ -22,17 +22,19 @@ from polhode.model import (
     AT_APEX,
     AT_POLE,
     FLIGHT,
+    FRICTIONLESS,
     MISFIT,
     NO_FOOT,
     STEEP,
     Apart,
     Contact,
-    Coulomb,
+    ContactLaw,
+    DryFriction,
     Element,
     Phase,
+    Restraint,
     Rolling,
     System,
-    phases,
     with_elements,
     with_independent,
 )
@@ -46,20 +48,23 @@ class Touch:
     """Geometry and slip of a contact, closed or open, along the axes of the support.
 
     Attributes:
-        contact: as declared.
+        contact: as declared, or a couple beside its force, which closes and opens with it.
         reserve: distance to the support's edge, m, positive on the support; zero without an edge.
         edge_distance: the same, positive on the side of the edge whose surface is touched.
         gap: height of the lowest point of the body above the support, m.
         closing: its rate, m/s.
-        slip: velocity of that point along the support, m/s.
+        slip: velocity of that point along the support, m/s, or what the couple opposes.
+        support: velocity of the support there, along the slip and the normal, in inertial space;
+            zero for a support that another body carries, which does work on it too.
     """
 
-    contact: Contact
+    contact: ContactLaw
     reserve: Expr
     edge_distance: Expr
     gap: Expr
     closing: Expr
     slip: tuple[Expr, Expr]
+    support: tuple[Expr, Expr, Expr]
 
     @property
     def expressions(self) -> tuple[Expr, ...]:
@@ -67,26 +72,40 @@ class Touch:
         return (self.reserve, self.gap, self.closing, *self.slip)
 
 
-def touch_of(equations: Equations, declared: Contact, phase: Phase) -> Touch:
+def touch_of(equations: Equations, declared: ContactLaw, phase: Phase) -> Touch:
     """Gap, slip and distance to the edge of a contact that rolls, slides or is open."""
     motion = equations.kinetics
     # beyond the edge the body may touch another surface: a table beside a sheet of paper
-    beyond = declared.on.beyond
-    contact = declared.on_support(beyond) if phase.is_beyond and beyond is not None else declared
-    place = motion.places[contact.body]
-    gap = contact.gap(motion.places)
-    slips = slips_along(motion, contact, (*contact.on.tangents, contact.on.normal))
-    reserve = declared.on.reserve(place + contact.arm)
-    edge_distance = -reserve if phase.is_beyond else reserve
-    return Touch(contact, reserve, edge_distance, gap, slips[2], (slips[0], slips[1]))
+    contact, reserve, beyond = declared, ZERO, declared.on.beyond
+    if isinstance(declared, Contact):
+        contact = touched = declared.on_support(beyond) if beyond and phase.is_beyond else declared
+        reserve = declared.on.reserve(motion.places[touched.body] + touched.arm)
+    pressing, sliding = contact.pressing(motion.places), contact.sliding(motion.places)
+    along, across = (*slips_along(motion, sliding), ZERO)[:2]
+    (closing,) = slips_along(motion, (pressing,))
+    moving, passing = (*_prescribed(motion, sliding), ZERO)[:2]
+    (rising,) = _prescribed(motion, (pressing,))
+    return Touch(
+        contact,
+        reserve,
+        -reserve if phase.is_beyond else reserve,
+        contact.gap(motion.places),
+        closing,
+        (along, across),
+        (moving, passing, rising),
+    )
 
 
-def slips_along(motion: Kinematics, contact: Contact, labels: Iterable[str]) -> list[Expr]:
-    """Velocity of a body against its support where they touch, along axes of the support, m/s."""
-    return [
-        motion.slip(contact.restraint(label, motion.places)).dot(contact.on.axes[label])
-        for label in labels
-    ]
+def slips_along(motion: Kinematics, restraints: Iterable[Restraint]) -> list[Expr]:
+    """Velocities of a body against its support along these restraints, m/s."""
+    return [motion.slip(restraint).dot(restraint.direction) for restraint in restraints]
+
+
+def _prescribed(motion: Kinematics, restraints: Iterable[Restraint]) -> Iterator[Expr]:
+    """Velocities that restraints prescribe, along their directions, m/s."""
+    for restraint in restraints:
+        along = restraint.direction
+        yield motion.resolve(restraint.velocity.express(along.triad)).dot(along)
 
 
 def height_of(equations: Equations, contact: Contact) -> Expr:
@@ -107,7 +126,7 @@ class Guard:
         positive: greater than zero while the mode lasts.
     """
 
-    contact: Contact | None
+    contact: ContactLaw | None
     kind: str
     positive: Expr
 
@@ -135,32 +154,46 @@ def guards_of(
 ) -> Iterator[Guard]:
     """The guards of a mode, exact; accelerations and reactions occur in them as derived."""
     for touch, phase in zip(touches, phases, strict=True):
-        if touch.contact.may_fall_flat:
-            yield Guard(touch.contact, "falls flat", height_of(equations, touch.contact))
-        for limit in equations.system.element(touch.contact.name).limits:
-            if any(s.kind.varies for s in limit.positive.symbols()):
-                yield Guard(touch.contact, limit.kind, limit.positive)
-        if phase.flies:
-            yield Guard(touch.contact, "touches down", touch.gap)
-            continue
         contact = touch.contact
-        normal = equations.components[contact.component(contact.on.normal)]
-        yield Guard(contact, "lifts off", normal)
-        if phase.rolls and isinstance(contact, Coulomb):
-            # (μₛ N)² - |F|², N²: squares keep the guard free of roots, and smooth where F = 0
-            # of long forces not multiplied out, which would make thousands of terms of hundreds
-            names = (contact.component(contact.on.normal), *(n for n, _ in contact.directions()))
-            parts = (equations.components[name] for name in names)
-            pressed, *rubbed = (p if length(p) <= _LONG else named(p) for p in parts)
-            most = (contact.mu_static * pressed) ** 2
-            yield Guard(contact, "slips", most - sum((f * f for f in rubbed), ZERO))
-        if touch.reserve:
-            yield Guard(contact, "crosses the edge", touch.edge_distance)
-        if phase.slides:
-            first, second = touch.slip
-            yield Guard(contact, "sticks", first * first + second * second)
+        if isinstance(contact, Contact):
+            yield from _guards_of_place(equations, contact)
+        if phase.flies:
+            if not contact.is_beside:
+                yield Guard(contact, "touches down", touch.gap)
+        else:
+            yield from _guards_in_contact(equations, touch, phase)
     for side in equations.assumed_positive:
         yield Guard(None, "near-flat", side)
+
+
+def _guards_of_place(equations: Equations, contact: Contact) -> Iterator[Guard]:
+    """Where the description of a contact ends, closed or open."""
+    if contact.may_fall_flat:
+        yield Guard(contact, "falls flat", height_of(equations, contact))
+    for limit in equations.system.element(contact.name).limits:
+        if any(s.kind.varies for s in limit.positive.symbols()):
+            yield Guard(contact, limit.kind, limit.positive)
+
+
+def _guards_in_contact(equations: Equations, touch: Touch, phase: Phase) -> Iterator[Guard]:
+    contact = touch.contact
+    if not contact.is_beside:
+        normal = equations.components[contact.component(contact.on.normal)]
+        yield Guard(contact, "lifts off", normal)
+    if phase.rolls and isinstance(contact, DryFriction):
+        # (μₛ N)² - |F|², N²: squares keep the guard free of roots, and smooth where F = 0
+        # of long forces not multiplied out, which would make thousands of terms of hundreds
+        along = (contact.component(label) for label in contact.on.tangents)
+        names = (contact.component(contact.on.normal), *filter(None, along))
+        parts = (equations.components[name] for name in names)
+        pressed, *rubbed = (p if length(p) <= _LONG else named(p) for p in parts)
+        most = (contact.mu_static * pressed) ** 2
+        yield Guard(contact, "slips", most - sum((f * f for f in rubbed), ZERO))
+    if touch.reserve:
+        yield Guard(contact, "crosses the edge", touch.edge_distance)
+    if phase.slides:
+        first, second = touch.slip
+        yield Guard(contact, "sticks", first * first + second * second)
 
 
 #: The phase of every contact, in the order of the declaration.
@@ -189,7 +222,7 @@ class Mode:
     embedding: Mapping[Symbol, Expr]
 
     @cached_property
-    def undetermined(self) -> tuple[Contact, ...]:
+    def undetermined(self) -> tuple[ContactLaw, ...]:
         """The contacts that touch with forces that Newton's laws do not determine."""
         loose = set(self.equations.undetermined)
         return tuple(
@@ -199,12 +232,12 @@ class Mode:
             and loose & {touch.contact.component(label) for label in touch.contact.on.axes.labels}
         )
 
-    def phase(self, contact: Contact) -> Phase:
+    def phase(self, contact: ContactLaw) -> Phase:
         """The phase of a contact."""
         place = [touch.contact.name for touch in self.touches].index(contact.name)
         return self.phases[place]
 
-    def element(self, contact: Contact) -> Element:
+    def element(self, contact: ContactLaw) -> Element:
         """The element that replaces a contact in this mode."""
         return self.equations.system.element(contact.name)
 
@@ -225,14 +258,14 @@ class Automaton(Shown):
     _known: dict[Phases, Mode] = field(default_factory=dict, repr=False, compare=False)
 
     @cached_property
-    def contacts(self) -> tuple[Contact, ...]:
-        """The contacts, as declared."""
-        return self.system.contacts
+    def contacts(self) -> tuple[ContactLaw, ...]:
+        """The contacts, as declared, and the couples beside their forces."""
+        return self.system.contact_laws
 
     @cached_property
     def options(self) -> tuple[Mapping[Phase, Element], ...]:
         """For each contact, the phases it can be in."""
-        return tuple(phases(contact) for contact in self.contacts)
+        return tuple(contact.phases() for contact in self.contacts)
 
     @cached_property
     def separated(self) -> Mode:
@@ -283,10 +316,11 @@ class Automaton(Shown):
         shapes = [e for mode in modes for touch in mode.touches for e in touch.expressions]
         coefficients: list[Expr] = []
         for contact in self.contacts:
-            coefficients.append(contact.restitution)
+            if isinstance(contact, Contact):
+                coefficients.append(contact.restitution)
             if isinstance(contact, Rolling) and contact.tangential is not None:
                 coefficients.append(contact.tangential)
-            if isinstance(contact, Coulomb):
+            if isinstance(contact, DryFriction):
                 coefficients += (contact.mu, contact.mu_static, contact.viscous)
                 coefficients += () if contact.stribeck is None else (contact.stribeck,)
         used = variables([*shapes, *coefficients])
@@ -332,7 +366,15 @@ class Automaton(Shown):
                 advice="simulate each motion by itself, or declare bodies that do not interact "
                 "as systems of their own",
             )
-        return tuple(map(self._name, product(*self.options)))
+        return tuple(map(self._name, filter(self.is_possible, product(*self.options))))
+
+    def is_possible(self, chosen: Phases) -> bool:
+        """Whether the couples beside the forces of contacts act just where these touch."""
+        known = {c.name: phase for c, phase in zip(self.contacts, chosen, strict=True)}
+        beside = ((known[c.name], known[c.pressed_by]) for c in self.contacts if c.is_beside)
+        return all(
+            couple.flies == contact.flies and couple != FRICTIONLESS for couple, contact in beside
+        )
 
     def named(self, name: str) -> Phases:
         """The phases of the mode with a name.
@@ -394,6 +436,8 @@ class Automaton(Shown):
         motion = equations.kinetics
         embedding = {}
         for option, contact in zip(self.options, self.contacts, strict=True):
+            if not isinstance(contact, Contact):
+                continue
             separated = option[FLIGHT]
             if not isinstance(separated, Apart) or separated.height in embedding:
                 continue  # of two contacts of a body, the first places it

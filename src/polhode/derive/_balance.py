@@ -15,10 +15,11 @@ balances on the motions that the constraints allow, which gives the equations of
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from polhode.algebra import (
+    Expr,
     LengthLetter,
     OutgrownError,
     Vector,
@@ -27,6 +28,7 @@ from polhode.algebra import (
     length,
     named,
     principal_root,
+    total,
 )
 from polhode.base import ConstraintError
 from polhode.derive._form import IN_PARTS
@@ -57,11 +59,15 @@ class ReactionColumn:
     Attributes:
         restraint: whose reaction it is.
         direction: of the reaction; for a normal force with sliding friction, that of both.
+        friction: components of friction per unit of the reaction, by their names.
+        couples: those of them that are couples, with the bodies on which they act.
         loads: the forces and couples of loads per unit of the reaction.
     """
 
     restraint: Restraint
     direction: Vector
+    friction: Mapping[str, Expr] = field(default_factory=dict)
+    couples: tuple[Share, ...] = ()
     loads: tuple[Action, ...] = ()
 
     @property
@@ -76,13 +82,13 @@ class ReactionColumn:
 
     @property
     def does_work(self) -> bool:
-        """Whether forces that may do work go with the reaction: sliding friction, or loads."""
-        return self.has_friction or bool(self.loads)
+        """Whether forces that may do work go with the reaction: friction, or loads."""
+        return bool(self.friction or self.loads)
 
     @property
     def shares(self) -> tuple[Share, ...]:
         """All bodies on which one unit acts, and where."""
-        return self.restraint.shares(self.direction)
+        return self.restraint.shares(self.direction) + self.couples
 
     def on(self, body: Body) -> Wrench | None:
         """The wrench of one unit on a body; None for a body it does not act on."""
@@ -170,31 +176,33 @@ def reaction_columns(
         proportional: forces and couples of loads per unit of a component, by its name.
     """
     columns = []
-    rubbing = {e.name: laws for e in motion.elements if (laws := e.friction(motion.places))}
-    for element in motion.elements:
-        frictions = {f.normal.name: f for f in rubbing.get(element.name, ())}
-        slip = "v_c" if len(rubbing) == 1 else f"v_{element.name}"
-        for restraint in motion.restraints[element.name]:
-            direction = restraint.direction
-            loads = proportional.get(restraint.name, ())
-            if restraint.name in frictions:
-                friction = frictions[restraint.name]
-                direction = direction + _friction(motion, friction, slip)
-                for name, along in friction.directions:
-                    share = direction.dot(along)
-                    loads += tuple(a.scaled(share) for a in proportional.get(name, ()))
-            columns.append(ReactionColumn(restraint, direction, loads))
+    rubbing = [(e, f) for e in motion.elements for f in e.friction(motion.places)]
+    sliding = sum(not f.is_couple for _, f in rubbing)
+    for restraint in (r for e in motion.elements for r in motion.restraints[e.name]):
+        direction, loads = restraint.direction, proportional.get(restraint.name, ())
+        components, couples = dict[str, Expr](), list[Share]()
+        for element, friction in rubbing:
+            if friction.normal.name != restraint.name:
+                continue
+            letter = friction.letter or ("v_c" if sliding == 1 else f"v_{element.name}")
+            found = _friction(motion, friction, letter)
+            components |= zip(friction.names, found, strict=True)
+            for part, share in zip(friction.sliding, found, strict=True):
+                if friction.is_couple:
+                    couples += part.shares(part.direction * share)
+                else:
+                    direction = direction + part.direction * share
+                loads += tuple(a.scaled(share) for a in proportional.get(part.name, ()))
+        columns.append(ReactionColumn(restraint, direction, components, tuple(couples), loads))
     return tuple(columns)
 
 
-def _friction(motion: Kinematics, friction: Friction, letter: str) -> Vector:
-    """Coulomb's friction per unit of normal force: -μ along the slip velocity, with its letter."""
-    (_, first), (_, second) = friction.directions
+def _friction(motion: Kinematics, friction: Friction, letter: str) -> list[Expr]:
+    """Dry friction per unit of normal force: -μ along the slip velocity, with its letter."""
     if friction.slip is not None:
-        along, across = friction.slip
-        return (first * along + second * across) * -friction.coefficient
-    slip, kept = motion.slip(friction.normal), motion.form.directions
-    parts = tuple(slip.dot(direction) for direction in (first, second))
+        return [share * -friction.coefficient for share in friction.slip]
+    kept = motion.form.directions
+    parts = tuple(motion.slip(r).dot(r.direction) for r in friction.sliding)
     if sum(length(part) ** 2 for part in parts) > _LONGEST_SLIP:
         if motion.form is not IN_PARTS:
             raise OutgrownError(
@@ -202,15 +210,15 @@ def _friction(motion: Kinematics, friction: Friction, letter: str) -> Vector:
                 expected=f"at most {_LONGEST_SLIP} products of terms in its square",
                 advice="keep it under a name",
             )
-        along, across = map(named, parts)
-        speed = principal_root(named(along * along + across * across))
+        along = [named(part) for part in parts]
+        speed = principal_root(named(total(part * part for part in along)))
     else:
-        along, across = (kept(kept_sum(part)) for part in parts)
-        speed = kept(kept_length((along, across), LengthLetter(letter, of_velocity=True)))
+        along = [kept(kept_sum(part)) for part in parts]
+        speed = kept(kept_length(along, LengthLetter(letter, of_velocity=True)))
     if not speed:
         raise ConstraintError(
             f"sliding friction at {friction.normal.name}, a contact that cannot slip",
             expected="a slip velocity that is not identically zero",
             advice="declare the contact Rolling",
         )
-    return (first * along + second * across) * (-friction.coefficient / speed)
+    return [part * (-friction.coefficient / speed) for part in along]

@@ -22,7 +22,7 @@ def refuse_shared_names(motion: Kinematics, required: Mapping[Body, Wrench]) -> 
     for element in motion.elements:
         names = [restraint.name for restraint in motion.restraints[element.name]]
         for friction in element.friction(motion.places):
-            names += [name for name, _ in friction.directions]
+            names += friction.names
         for name in names:
             if name in owners:
                 raise _shared(name, f"both {owners[name]!r} and {element.name!r}")

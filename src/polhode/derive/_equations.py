@@ -281,8 +281,17 @@ class Equations(Shown):
         """Names of all scalar reaction components."""
         motion = self.kinetics
         rubbing = (f for e in motion.elements for f in e.friction(motion.places))
-        friction = (name for f in rubbing for name, _ in f.directions)
+        friction = (name for f in rubbing for name in f.names)
         return (*(line.name for line in self.lines), *friction)
+
+    @cached_property
+    def couples(self) -> frozenset[str]:
+        """Names of those reaction components that are couples, N m; the others are forces, N."""
+        motion = self.kinetics
+        restraints = [line.restraint for line in self.lines]
+        for friction in (f for e in motion.elements for f in e.friction(motion.places)):
+            restraints += friction.sliding
+        return frozenset(r.name for r in restraints if r.is_couple)
 
     @cached_property
     def _solved(self) -> Reactions:
@@ -310,8 +319,8 @@ class Equations(Shown):
         for element in self.kinetics.elements:
             for friction in element.friction(self.kinetics.places):
                 line = next(c for c in self.lines if c.name == friction.normal.name)
-                for name, direction in friction.directions:
-                    found[name] = line.direction.dot(direction) * values[line.name]
+                for name in friction.names:
+                    found[name] = line.friction[name] * values[line.name]
         return found
 
     @property

@@ -125,8 +125,8 @@ def refuse_unfelt_forces(motion: Unconstrained) -> None:
             others = [b for b in motion.bodies_moved(moving) if b not in held]
             _refuse_unfelt(element.name, moving, others, element.on_moving_body)
         for friction in element.friction(motion.places):
-            for _, direction in friction.directions:
-                moving = motion.speeds_along(friction.normal.velocity, direction)
+            for restraint in friction.sliding:
+                moving = motion.speeds_along(restraint.velocity, restraint.direction)
                 carriers = motion.bodies_moved(moving)
                 _refuse_unfelt(element.name, moving, carriers, element.on_moving_body)
     for load in motion.system.loads:

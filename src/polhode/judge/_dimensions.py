@@ -189,7 +189,8 @@ def _analysis_of(key: ByIdentity[Equations]) -> _DimensionalAnalysis | None:
 
 def _of_reactions(equations: Equations) -> dict[Symbol, Dimension]:
     """Forces and couples of supports, under the symbols that claims have, and their friction."""
-    coefficients = (f.coefficient for f in declared(equations.system).frictions.values())
+    laws = declared(equations.system).frictions.values()
+    coefficients = (f.coefficient for own in laws for f in own if not f.is_couple)
     return {s: PURE for c in coefficients if (s := c.symbol) is not None} | {
         reaction_symbol(line.name): FORCE * LENGTH if line.restraint.is_couple else FORCE
         for line in equations.lines

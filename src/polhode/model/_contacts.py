@@ -2,35 +2,32 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, Self
 
-from polhode.algebra import (
-    ZERO,
-    Expr,
-    ExprLike,
-    Symbol,
-    SymbolKind,
-    Vector,
-    as_symbol,
-    exp,
-    is_positive,
-)
+from polhode.algebra import Expr, ExprLike, Symbol, Vector, as_symbol, is_positive
 from polhode.base import DeclarationError
 from polhode.model._body import Body
-from polhode.model._declared import Size, not_negative, of_type, positive
-from polhode.model._element import Element, Friction, Limit, Places, Restraint
+from polhode.model._contact_law import (
+    FLIGHT,
+    FRICTIONLESS,
+    ROLLING,
+    SLIDING,
+    ContactLaw,
+    DryFriction,
+    Phase,
+    Slipping,
+)
+from polhode.model._declared import Size, not_negative, of_type
+from polhode.model._element import Element, Limit, Places, Restraint
 from polhode.model._support import MISFIT, NO_FOOT, Support
 from polhode.model._surface import LowerEdge, MaterialPoint, Round, Surface
 
-_ODD = re.compile(r"[^A-Za-z0-9_ ]")  # characters not allowed in the name of a symbol
-
 
 @dataclass(frozen=True, init=False)
-class Contact(Element):
+class Contact(ContactLaw):
     """A body that touches a support at one point of its surface.
 
     Its position along the support is two coordinates; on a plane its height follows from its
@@ -89,9 +86,11 @@ class Contact(Element):
             restitution=restitution_of(restitution, called),
             at=at,
         )
-        self._surface()
+        _ = self.surface  # refused where there is none
 
-    def _surface(self) -> Surface:
+    @property
+    def surface(self) -> Surface:
+        """That of the body, or its point that touches."""
         if self.at is not None:
             return MaterialPoint(self.at)
         if self.body.surface is None and self.body.inertia.is_zero:
@@ -116,12 +115,12 @@ class Contact(Element):
     @cached_property
     def arm(self) -> Vector:
         """From the centre of mass to the point of contact, m."""
-        return self._surface().lowest(self.body.axes, self.on.up)
+        return self.surface.lowest(self.body.axes, self.on.up)
 
     @property
     def may_fall_flat(self) -> bool:
         """Whether the centre of mass may come down to the support while the body touches it."""
-        return not self._surface().encloses_centre
+        return not self.surface.encloses_centre
 
     def introduced(self) -> tuple[Expr, ...]:
         return self.on.introduced(self.body.tag)
@@ -167,16 +166,15 @@ class Contact(Element):
         return (gap,) if gap else ()
 
     def assumed_positive(self) -> tuple[Expr, ...]:
-        return self._surface().assumed_positive(self.body.axes, self.on.up)
+        return self.surface.assumed_positive(self.body.axes, self.on.up)
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
         return self.on.limits(self.arm)
 
     @property
-    def spelled(self) -> str:
-        """Its name for use in symbols, in ASCII: other characters become code points."""
-        return _ODD.sub(lambda found: f"u{ord(found[0]):04x}", self.name)
+    def pressed_by(self) -> str:
+        return self.name
 
     def component(self, label: str) -> str:
         """Name of the reaction's component along a direction of the support."""
@@ -191,12 +189,28 @@ class Contact(Element):
         still, other_arm = self.on.axes.root.zero, point - places[carrier]
         return Restraint(name, self.body, along, still, arm, carrier, other_arm)
 
+    def pressing(self, places: Places) -> Restraint:
+        return self.restraint(self.on.normal, places)
+
+    def sliding(self, places: Places) -> tuple[Restraint, ...]:
+        return tuple(self.restraint(label, places) for label in self.on.tangents)
+
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
-        return (self.restraint(self.on.normal, places), *self.couples())
+        return (self.pressing(places), *self.couples())
+
+    def phases(self) -> Mapping[Phase, Element]:
+        elements = self._touching()
+        if self.on.beyond is not None:
+            outside = self.on_support(self.on.beyond)._touching()
+            elements |= {phase.beyond(): element for phase, element in outside.items()}
+        return {**elements, FLIGHT: Apart(self)}
+
+    def _touching(self) -> dict[Phase, Element]:
+        return {FRICTIONLESS: self}
 
     def couples(self) -> tuple[Restraint, ...]:
         """The couples that hold the attitude of a body lying on a face."""
-        if not self._surface().is_face:
+        if not self.surface.is_face:
             return ()
         body, axes, carrier = self.body, self.on.axes, self.on.carrier
         turning = axes.angular_velocity if carrier is None else axes.root.zero
@@ -239,8 +253,10 @@ class Rolling(Contact):
         self._set(tangential=reversed_)
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
-        labels = (*self.on.tangents, self.on.normal)
-        return (*(self.restraint(label, places) for label in labels), *self.couples())
+        return (*self.sliding(places), self.pressing(places), *self.couples())
+
+    def _touching(self) -> dict[Phase, Element]:
+        return {ROLLING: self}
 
 
 class Smooth(Contact):
@@ -248,7 +264,7 @@ class Smooth(Contact):
 
 
 @dataclass(frozen=True, init=False)
-class Coulomb(Contact):
+class Coulomb(Contact, DryFriction):
     """Contact with dry friction: it sticks up to a limit, and slides against a friction force.
 
     Sliding friction is the normal force times a coefficient, opposite to the slip velocity. The
@@ -282,17 +298,7 @@ class Coulomb(Contact):
         at: Vector | None = None,
     ) -> None:
         super().__init__(body, on=on, name=name, force=force, restitution=restitution, at=at)
-        what = f"friction coefficient of contact {self.name!r}"
-        kinetic = not_negative(mu, what)
-        static = kinetic if mu_static is None else not_negative(mu_static, f"static {what}")
-        if is_positive(kinetic - static):
-            raise DeclarationError(
-                f"mu = {kinetic} above mu_static = {static} at contact {self.name!r}",
-                expected="a static coefficient no smaller than the kinetic one",
-            )
-        slow = None if stribeck is None else positive(stribeck, f"Stribeck speed of {self.name!r}")
-        rise = not_negative(viscous, f"viscous part of the {what}")
-        self._set(mu=kinetic, mu_static=static, viscous=rise, stribeck=slow)
+        self._set_coefficients(mu, mu_static, viscous, stribeck)
 
     @property
     def sizes(self) -> Iterator[Size]:
@@ -300,26 +306,14 @@ class Coulomb(Contact):
         if self.stribeck is not None:
             yield Size(f"Stribeck speed of {self.name!r}", self.stribeck)
 
-    def coefficient(self, slip: Expr, slowness: Expr) -> Expr:
-        """Friction over normal force while it slides.
-
-        Args:
-            slip: speed, m/s.
-            slowness: exp(−slip/stribeck), the remaining fraction of the excess static friction.
-        """
-        return self.mu + self.viscous * slip + (self.mu_static - self.mu) * slowness
-
-    def slowness(self, slip: Expr) -> Expr:
-        """Remaining fraction of the excess of static over kinetic friction at a slip speed."""
-        return ZERO if self.stribeck is None else exp(-slip / self.stribeck)
-
-    def directions(self) -> tuple[tuple[str, Vector], tuple[str, Vector]]:
-        """Unit vectors along the support, with the names of the friction components."""
-        first, second = ((self.component(label), self.on.axes[label]) for label in self.on.tangents)
-        return first, second
-
-    def friction(self, places: Places) -> tuple[Friction, ...]:
-        return (Friction(self.restraint(self.on.normal, places), self.mu, self.directions()),)
+    def _touching(self) -> dict[Phase, Element]:
+        # frictionless: at zero slip with no friction force the direction of sliding is undefined
+        bare: Any = {"on": self.on, "name": self.name, "force": self.force, "at": self.at}
+        return {
+            ROLLING: Rolling(self.body, **bare),
+            SLIDING: Sliding(self),
+            FRICTIONLESS: Smooth(self.body, **bare),
+        }
 
 
 def restitution_of(value: ExprLike, contact: str) -> Expr:
@@ -343,43 +337,7 @@ def _meant(support: object) -> str:
     return "give on=Plane(lab)"
 
 
-# -- the phases of a contact, and the element that replaces it in each -----------------------------
-
-
-@dataclass(frozen=True)
-class Phase:
-    """The state of a contact, on its support or on the table beyond the edge."""
-
-    kind: str
-    is_beyond: bool = False
-
-    @property
-    def value(self) -> str:
-        """In words."""
-        return f"{self.kind} on the table" if self.is_beyond else self.kind
-
-    @property
-    def rolls(self) -> bool:
-        """Whether the point of contact moves with the support."""
-        return self.kind == "rolling"
-
-    @property
-    def slides(self) -> bool:
-        """Whether friction opposes a slip."""
-        return self.kind == "sliding"
-
-    @property
-    def flies(self) -> bool:
-        """Whether the body is off the support."""
-        return self.kind == "flight"
-
-    def beyond(self) -> Phase:
-        """The same beyond the edge."""
-        return Phase(self.kind, is_beyond=True)
-
-
-ROLLING, SLIDING = Phase("rolling"), Phase("sliding")
-FRICTIONLESS, FLIGHT = Phase("frictionless"), Phase("flight")
+# -- the elements that replace a contact in its phases ---------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -442,12 +400,8 @@ class Apart(Element):
         return self.contact.assumed_positive()
 
 
-class Sliding(Contact):
-    """A contact that slides in a direction given by symbols instead of by its slip velocity.
-
-    When slipping starts the slip velocity has no direction yet, and shortly after it the direction
-    is known far better than rounded velocities would give it.
-    """
+class Sliding(Contact, Slipping):
+    """A contact that slides in a direction given by symbols."""
 
     law: Coulomb
 
@@ -461,50 +415,3 @@ class Sliding(Contact):
             at=law.at,
         )
         object.__setattr__(self, "law", law)
-
-    @property
-    def direction(self) -> tuple[Symbol, Symbol]:
-        """Components of the unit vector along the slip velocity."""
-        first, second = (
-            Symbol(f"e_{label}_{self.spelled}", SymbolKind.SPEED) for label in self.on.tangents
-        )
-        return first, second
-
-    @property
-    def slip_speed(self) -> Symbol:
-        """Magnitude of the slip velocity, m/s."""
-        return Symbol(f"v_slip_{self.spelled}", SymbolKind.SPEED)
-
-    @property
-    def slowness(self) -> Symbol:
-        """Remaining fraction of the excess static friction in Stribeck's law."""
-        return Symbol(f"slowness_{self.spelled}", SymbolKind.SPEED)
-
-    def friction(self, places: Places) -> tuple[Friction, ...]:
-        first, second = (Expr.generator(symbol) for symbol in self.direction)
-        excess = ZERO if self.law.stribeck is None else Expr.generator(self.slowness)
-        coefficient = self.law.coefficient(Expr.generator(self.slip_speed), excess)
-        normal = self.restraint(self.on.normal, places)
-        return (Friction(normal, coefficient, self.law.directions(), (first, second)),)
-
-
-def phases(contact: Contact) -> Mapping[Phase, Element]:
-    """The element that replaces a contact in each phase it can be in, sticking ones first."""
-    elements = _touching(contact)
-    if contact.on.beyond is not None:
-        outside = _touching(contact.on_support(contact.on.beyond))
-        elements |= {phase.beyond(): element for phase, element in outside.items()}
-    return {**elements, FLIGHT: Apart(contact)}
-
-
-def _touching(contact: Contact) -> dict[Phase, Element]:
-    if isinstance(contact, Coulomb):
-        # frictionless: at zero slip with no friction force the direction of sliding is undefined
-        bare: Any = {"on": contact.on, "name": contact.name, "force": contact.force}
-        bare["at"] = contact.at
-        return {
-            ROLLING: Rolling(contact.body, **bare),
-            SLIDING: Sliding(contact),
-            FRICTIONLESS: Smooth(contact.body, **bare),
-        }
-    return {ROLLING if isinstance(contact, Rolling) else FRICTIONLESS: contact}

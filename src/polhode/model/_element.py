@@ -55,6 +55,8 @@ class Restraint:
         other: the body that supports, if not the ground.
         other_arm: from its centre of mass to the point, m.
         more: further points and rotations: Σ direction · velocity over all of them is prescribed.
+        of_travel: whether, without an arm, the direction is a length by which a rotation makes the
+            point of contact travel; its reaction is then a force, against that travel.
     """
 
     name: str
@@ -65,6 +67,7 @@ class Restraint:
     other: Body | None = None
     other_arm: Vector | None = None
     more: tuple[Share, ...] = ()
+    of_travel: bool = False
 
     def shares(self, direction: Vector | None = None) -> tuple[Share, ...]:
         """All bodies on which one unit of the reaction acts.
@@ -90,7 +93,7 @@ class Restraint:
     @property
     def is_couple(self) -> bool:
         """Whether the reaction is a couple rather than a force."""
-        return self.arm is None
+        return self.arm is None and not self.of_travel
 
     @property
     def is_in_parts(self) -> bool:
@@ -102,19 +105,33 @@ class Restraint:
 
 @dataclass(frozen=True)
 class Friction:
-    """Sliding friction: coefficient times the normal reaction, against the slip velocity.
+    """Dry friction: coefficient times the normal reaction, against a slip velocity.
 
     Attributes:
         normal: the restraint whose reaction presses the surfaces together.
         coefficient: kinetic friction coefficient.
-        directions: two unit vectors in the plane of contact, with the names of the components.
+        sliding: what would keep it from slipping along two directions, or along one: their
+            reactions are the components of friction. Without arms these are couples, as of rolling
+            resistance.
         slip: components of the unit vector along the slip; that of the slip velocity if None.
+        letter: of the slip speed, where it is printed; empty for that of sliding, v_c.
     """
 
     normal: Restraint
     coefficient: Expr
-    directions: tuple[tuple[str, Vector], tuple[str, Vector]]
-    slip: tuple[Expr, Expr] | None = None
+    sliding: tuple[Restraint, ...]
+    slip: tuple[Expr, ...] | None = None
+    letter: str = ""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the components."""
+        return tuple(restraint.name for restraint in self.sliding)
+
+    @property
+    def is_couple(self) -> bool:
+        """Whether it acts by a couple instead of a force at the point of contact."""
+        return self.sliding[0].arm is None
 
 
 class Limit(NamedTuple):

@@ -58,6 +58,21 @@ class Surface(Declared, ABC):
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
         """From the centre of mass to the point that touches a plane with this unit normal, m."""
 
+    def rolling_axes(
+        self, axes: Frame, normal: Vector, tangents: tuple[Vector, Vector]
+    ) -> tuple[Vector, ...]:
+        """Vectors k of which ω·k is how fast the point of contact travels over the surface, m.
+
+        Of a body that turns with ω against a plane with this unit normal, along one direction of
+        the plane or two; none where the same point always touches.
+
+        Args:
+            axes: of the body.
+            normal: of the plane.
+            tangents: unit vectors along the plane, with the normal a right-handed triad.
+        """
+        return ()
+
     @property
     def profile(self) -> Profile | None:
         """The shape to be drawn; None for the uniform body with the same inertia."""
@@ -95,6 +110,13 @@ class Round(Surface):
         if not self.offset:
             return normal * -self.radius
         return axes[self.axis] * self.offset - normal.express(axes) * self.radius
+
+    def rolling_axes(
+        self, axes: Frame, normal: Vector, tangents: tuple[Vector, Vector]
+    ) -> tuple[Vector, ...]:
+        # arm = -R n, and n changes by -ω × n in the body: along t by R (n × t)·ω
+        first, second = tangents
+        return second * self.radius, first * -self.radius
 
     def is_symmetric(self, axes: Frame, axis: int) -> bool:
         return not self.offset or axes.position(self.axis) == axis
@@ -160,6 +182,15 @@ class Rim(Surface):
     def assumed_positive(self, axes: Frame, normal: Vector) -> tuple[Expr, ...]:
         steepest = self._steepest(axes, normal)
         return (principal_root(steepest.dot(steepest)),)
+
+    def rolling_axes(
+        self, axes: Frame, normal: Vector, tangents: tuple[Vector, Vector]
+    ) -> tuple[Vector, ...]:
+        # The point travels along the circle alone, R/sin θ for each unit of the angle about the
+        # horizontal vector across its tangent, by which the plane turns past it.
+        steepest = self._steepest(axes, normal)
+        squared = _brief(steepest.dot(steepest))
+        return ((axes[self.axis] - normal * axes[self.axis].dot(normal)) * (self.radius / squared),)
 
     @property
     def encloses_centre(self) -> bool:
@@ -246,6 +277,29 @@ class Ellipsoidal(Surface):
         height = principal_root(_brief(support))
         reached = zip(self.offset, stretched, strict=True)
         return Vector(tuple(centre - s / height for centre, s in reached), axes)
+
+    def rolling_axes(
+        self, axes: Frame, normal: Vector, tangents: tuple[Vector, Vector]
+    ) -> tuple[Vector, ...]:
+        # arm = c - h² n/H with H² = Σ h² n²: where n changes by δ = n × ω, it changes by D δ with
+        # the symmetric D = -h²/H + (h² n)(h² n)ᵀ/H³, so that k = (D t) × n
+        upright = _along(axes, normal)
+        squares = [h * h for h in self.half_axes]
+        stretched = [s * n for s, n in zip(squares, upright.components, strict=True)]
+        support = _brief(
+            sum((s * n for s, n in zip(stretched, upright.components, strict=True)), ZERO)
+        )
+        height, found = principal_root(support), list[Vector]()
+        for tangent in tangents:
+            along = tangent.express(axes).components
+            mixed = sum((s * t for s, t in zip(stretched, along, strict=True)), ZERO)
+            changed = (
+                (mixed / support * n - s * t) / height
+                for s, n, t in zip(squares, stretched, along, strict=True)
+            )
+            first, second, third = changed
+            found.append(Vector((first, second, third), axes).cross(upright))
+        return tuple(found)
 
 
 @dataclass(frozen=True)

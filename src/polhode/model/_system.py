@@ -9,6 +9,7 @@ from types import MappingProxyType
 from polhode.algebra import Expr, ExprLike, Symbol, SymbolKind, as_symbol, speed
 from polhode.base import DeclarationError, Shown, look_up
 from polhode.model._body import Body
+from polhode.model._contact_law import ContactLaw
 from polhode.model._contacts import Contact, Coulomb, Rolling
 from polhode.model._declared import is_rate, quantity
 from polhode.model._element import Element, Flight
@@ -66,6 +67,7 @@ class System(Shown):
                 expected="frames that descend from one root",
                 advice="build all axes from the same Frame",
             )
+        _refuse_alone(elements)
         _refuse_unlisted(independent, speeds)
         kept = tuple(as_symbol(speed) for speed in independent)
         values = {
@@ -93,6 +95,11 @@ class System(Shown):
     def contacts(self) -> tuple[Contact, ...]:
         """The contacts, in the order in which they were declared."""
         return tuple(element for element in self.elements if isinstance(element, Contact))
+
+    @property
+    def contact_laws(self) -> tuple[ContactLaw, ...]:
+        """The contacts, and the couples beside their forces, likewise."""
+        return tuple(element for element in self.elements if isinstance(element, ContactLaw))
 
     def body(self, name: str) -> Body:
         """The body with this name."""
@@ -160,6 +167,18 @@ def _refuse_other_types(parts: Iterable[object]) -> None:
         raise DeclarationError(
             f"{what} in a system", expected="bodies, contacts, joints and loads", advice=advice
         )
+
+
+def _refuse_alone(elements: Iterable[Element]) -> None:
+    """Refuse couples beside the force of a contact that is not there."""
+    known = {element.name for element in elements}
+    for element in elements:
+        if isinstance(element, ContactLaw) and element.pressed_by not in known:
+            raise DeclarationError(
+                f"{element.name!r}, which belongs to {element.pressed_by!r}",
+                expected="a system with that contact",
+                advice="give both: System(contact, RollingResistance(contact, mu=...), ...)",
+            )
 
 
 def _refuse_same_names(kind: str, parts: Sequence[Part]) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 
 from polhode.algebra import ZERO, Expr, SymbolKind
 from polhode.base import NumericError, look_up
-from polhode.model import Contact
+from polhode.model import ContactLaw
 from polhode.simulate._segment import Segment
 from polhode.simulate.integrate._arrays import Array, pieces_at
 from polhode.simulate.integrate._crossing import NOISE, roots
@@ -249,12 +249,10 @@ def in_mode(segment: Segment, quantity: Expr) -> Expr:
     equations = segment.dynamics.equations
     named = [s for s in quantity.symbols() if s.kind is SymbolKind.REACTION]
     elements = getattr(equations.system, "elements", ())
-    contacts = [getattr(element, "contact", element) for element in elements]
-    of_contacts = {
-        contact.component(label)
-        for contact in contacts
-        if isinstance(contact, Contact)
-        for label in (*contact.on.tangents, contact.on.normal)
+    open_ = {name for element in elements for name in element.absent()}
+    laws = [element for element in elements if isinstance(element, ContactLaw)]
+    of_contacts = open_ | {
+        law.component(label) for law in laws for label in (*law.on.tangents, law.on.normal)
     }
     for symbol in named:
         known = {*equations.components, *equations.undetermined, *of_contacts}

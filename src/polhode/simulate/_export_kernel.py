@@ -162,8 +162,7 @@ def _described(
 
 
 def _unit(equations: Equations, name: str, meaning: Expr) -> str:
-    couples = {line.name for line in equations.lines if line.restraint.is_couple}
-    if name in couples:
+    if name in equations.couples:
         return "N m"
     if name in equations.components or name in equations.least:
         return "N"

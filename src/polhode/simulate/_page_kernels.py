@@ -242,7 +242,7 @@ def page_kernels(run: Trajectory, formulas: Mapping[Symbol, Expr]) -> PageKernel
     if len(modes.contacts) > 1:
         _refuse_slips(run, modes)
         return PageKernels((_page_mode(run, modes, begins),), None, formulas, schedule)
-    (contact,) = modes.contacts
+    (contact,) = system.contacts
     # a contact with friction never slides without
     is_rough = SLIDING in modes.options[0]
     options = [p for p in modes.options[0] if not is_rough or p.kind != FRICTIONLESS.kind]
@@ -330,7 +330,7 @@ def _page_mode(run: Trajectory, modes: Automaton, mode: Mode) -> PageMode:
         name = f"{guard.contact.name} " if guard.contact is not None and several else ""
         kind = name + (guard.ends or guard.kind)
         watched.append(Watched(kind, bool(guard.ends), _vanishing(guard, dynamics)))
-    phase, contact = mode.phases[0], mode.touches[0].contact
+    phase, touched = mode.phases[0], mode.touches[0].contact
     known = dict(_begins(mode))
     begin = tuple(known.get(s, Expr.of(0)) for s in dynamics.auxiliary)
     joined = {"begin": begin, "masses": _masses(mode.equations)}
@@ -340,7 +340,7 @@ def _page_mode(run: Trajectory, modes: Automaton, mode: Mode) -> PageMode:
         mode.name,
         phase.kind,
         phase.is_beyond,
-        contact if len(modes.contacts) == 1 else None,
+        touched if len(modes.contacts) == 1 and isinstance(touched, Contact) else None,
         dynamics,
         tuple(watched),
         joined,

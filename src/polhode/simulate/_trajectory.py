@@ -326,8 +326,7 @@ def unit_of(run: Trajectory, name: str) -> str:
         return _WORDS[name]
     if name in run.reactions:
         modes = (cast(Equations, segment.dynamics.equations) for segment in run.segments)
-        couples = {n.name for mode in modes for n in mode.lines if n.restraint.is_couple}
-        return "N m" if name in couples else "N"
+        return "N m" if any(name in mode.couples for mode in modes) else "N"
     return unit_in(cast(Equations, run.equations), run.quantities[name])
 
 

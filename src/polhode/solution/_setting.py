@@ -368,10 +368,11 @@ def setting_of(equations: Equations) -> Setting:
     places = equations.kinetics.places
     if any(element.friction(places) for element in equations.kinetics.elements):
         raise ConstraintError(
-            f"a worked solution of {equations.system.name!r}, with sliding friction",
-            expected="contacts that roll or have no friction: the direction of sliding friction "
+            f"a worked solution of {equations.system.name!r}, with friction",
+            expected="contacts that roll or have no friction: the direction of friction "
             "changes with the motion, and nothing has a short form",
-            advice="simulate it, or replace Coulomb by Rolling or Smooth",
+            advice="simulate it, or replace Coulomb by Rolling or Smooth, and leave out rolling "
+            "resistance and drilling friction",
         )
     symbols = (*equations.parameters, *equations.coordinates, *equations.speeds)
     words = sorted({s.base().name for s in symbols if LetterParts.of(s.base().name).is_word})

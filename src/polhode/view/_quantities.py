@@ -128,8 +128,7 @@ def quantity(run: Trajectory, named: Named) -> PlottedQuantity:
     symbol = expression.symbol or Symbol(name)
     modes = [equations for equations in modes_of(run) if name in equations.components]
     if modes:  # a reaction
-        couples = [line.name for line in modes[0].lines if line.restraint.is_couple]
-        dimension = ENERGY if name in couples else FORCE
+        dimension = ENERGY if name in modes[0].couples else FORCE
     else:
         dimension = dimension_of(expression, equations_of(run).dimensions) or PURE
     angle = dimension == PURE and is_angle(equations_of(run), symbol)

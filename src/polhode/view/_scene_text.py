@@ -22,7 +22,7 @@ from polhode.algebra import (
 )
 from polhode.base import PURE
 from polhode.derive import Equations, is_angle, slips_along, symbols_of
-from polhode.model import Sliding
+from polhode.model import Slipping
 from polhode.simulate import Trajectory
 from polhode.view._magnitudes import Magnitudes, panels
 from polhode.view._mathml import Formula, equation, inline, typeset
@@ -151,12 +151,13 @@ def meanings_of(letters: Mapping[Generator, Expr]) -> Iterator[Formula]:
 def _slip_symbols(equations: Equations) -> Iterator[_Row]:
     """Definitions of the symbols for slip at sliding contacts."""
     for element in equations.kinetics.elements:
-        if not isinstance(element, Sliding):
+        if not isinstance(element, Slipping):
             continue
-        slips = slips_along(equations.kinetics, element, element.on.tangents)
+        motion = equations.kinetics
+        slips = slips_along(motion, element.law.sliding(motion.places))
         speed = Expr.generator(element.slip_speed)
         kept = (kept_sum(slip) / speed for slip in slips)
-        meanings = list(zip(element.direction, kept, strict=True))
+        meanings = list(zip(element.direction, kept, strict=False))
         size = kept_length(slips)
         root = size.recast({part: part.meaning for part in lengths_in([size])})
         meanings.append((element.slip_speed, root))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -32,7 +32,7 @@ class Placement:
             user chose.
         replaced: the speeds whose places those took, in terms of all that remain.
         restraints: velocities that supports prescribe.
-        frictions: laws of sliding friction, by the name of the normal reaction.
+        frictions: laws of dry friction, by the name of the normal reaction.
     """
 
     system: System
@@ -42,7 +42,7 @@ class Placement:
     speeds: tuple[Symbol, ...]
     replaced: dict[Symbol, Expr]
     restraints: tuple[Restraint, ...]
-    frictions: dict[str, Friction]
+    frictions: dict[str, tuple[Friction, ...]]
 
     @cached_property
     def functions(self) -> tuple[Symbol, ...]:
@@ -69,7 +69,7 @@ class Placement:
             yield from (frame.angle for frame in body.axes.lineage)
         for vector in self._vectors():
             yield from vector.express(root).components
-        yield from (friction.coefficient for friction in self.frictions.values())
+        yield from (f.coefficient for laws in self.frictions.values() for f in laws)
 
     def _vectors(self) -> Iterator[Vector]:
         yield from self.places.values()
@@ -154,8 +154,16 @@ def declared(system: System) -> Placement:
         tuple(sorted(speeds, key=_name)),
         replaced,
         tuple(r.mapped(lengths_written_out) for e in elements for r in e.restraints(places)),
-        {f.normal.name: f for e in elements for f in e.friction(places)},
+        _by_normal(f for e in elements for f in e.friction(places)),
     )
+
+
+def _by_normal(frictions: Iterable[Friction]) -> dict[str, tuple[Friction, ...]]:
+    found: dict[str, tuple[Friction, ...]] = {}
+    for friction in frictions:
+        name = friction.normal.name
+        found[name] = (*found.get(name, ()), friction)
+    return found
 
 
 def _replaced(

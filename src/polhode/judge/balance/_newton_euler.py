@@ -8,7 +8,7 @@ squares, unless they are given.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -19,7 +19,7 @@ from polhode.base import NumericError, integrated
 from polhode.judge.balance._declared import Placement, declared, reaction_symbol
 from polhode.judge.balance._jets import Array
 from polhode.judge.balance._trial import Trial
-from polhode.model import Action, Body, Restraint, System
+from polhode.model import Action, Body, Friction, Restraint, System
 
 _TOLERANCE = 1e-8  # relative residual up to which the linear system counts as solvable
 _TINY = 1e-12  # rows below this are rounding of zero rows and must not be scaled up
@@ -279,10 +279,13 @@ def _applied(trial: Trial, action: Action) -> Array:
 
 def _reaction_wrenches(known: Placement, trial: Trial, restraint: Restraint) -> dict[Body, Array]:
     """Force and torque about the centre of mass that one unit of a reaction puts on the bodies."""
-    direction = trial.now(restraint.direction) + _friction(known, trial, restraint)
-    acting = {restraint.body: _wrench(trial, direction, restraint.arm)}
+    rubbing = known.frictions.get(restraint.name, ())
+    direction = trial.now(restraint.direction)
+    direction = direction + _friction(trial, [f for f in rubbing if not f.is_couple])
+    couple = np.concatenate([np.zeros(3), _friction(trial, [f for f in rubbing if f.is_couple])])
+    acting = {restraint.body: _wrench(trial, direction, restraint.arm) + couple}
     if restraint.other is not None:
-        acting[restraint.other] = _wrench(trial, -direction, restraint.other_arm)
+        acting[restraint.other] = _wrench(trial, -direction, restraint.other_arm) - couple
     for share in restraint.more:
         further = _wrench(trial, trial.now(share.direction), share.arm)
         acting[share.body] = acting.get(share.body, np.zeros(6)) + further
@@ -295,22 +298,22 @@ def _wrench(trial: Trial, direction: Array, arm: Vector | None) -> Array:
     return np.concatenate([direction, np.cross(trial.now(arm), direction)])
 
 
-def _friction(known: Placement, trial: Trial, restraint: Restraint) -> Array:
-    """The sliding friction per unit normal force: -μ v/|v|, with v the slip velocity."""
-    friction = known.frictions.get(restraint.name)
-    if friction is None:
-        return np.zeros(3)
-    slip = np.zeros(3)
-    for _, direction in friction.directions:
-        speed = trial.values([trial.slip(restraint, direction)])[0, 0]
-        slip = slip + speed * trial.now(direction)
-    if not slip.any():
-        raise NumericError(
-            f"sliding friction of {restraint.name!r} at a state without slip",
-            expected="a state in which it slips, since the friction points against the slip",
-        )
-    coefficient = trial.values([trial.scalar(friction.coefficient)])[0, 0]
-    return np.asarray(-coefficient * slip / np.linalg.norm(slip))
+def _friction(trial: Trial, laws: Iterable[Friction]) -> Array:
+    """Dry friction, as forces or as couples, per unit normal force: -μ v/|v|, v being the slip."""
+    found = np.zeros(3)
+    for friction in laws:
+        slips = [trial.slip(restraint, restraint.direction) for restraint in friction.sliding]
+        speeds = trial.values(slips)[:, 0]
+        if not speeds.any():
+            raise NumericError(
+                f"sliding friction of {friction.normal.name!r} at a state without slip",
+                expected="a state in which it slips, since the friction points against the slip",
+            )
+        coefficient = trial.values([trial.scalar(friction.coefficient)])[0, 0]
+        for restraint, speed in zip(friction.sliding, speeds, strict=True):
+            share = -coefficient * speed / np.linalg.norm(speeds)
+            found = found + share * trial.now(restraint.direction)
+    return found
 
 
 def _numbers(

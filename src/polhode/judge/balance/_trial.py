@@ -200,16 +200,17 @@ class Trial:
 
     def pull(self, restraint: Restraint) -> Jets:
         """The force that one unit of a reaction puts on a body, with the friction it causes."""
-        direction = self.vector(restraint.direction)
-        friction = self._known.frictions.get(restraint.name)
-        if friction is None:
-            return direction
-        # Sliding friction is -μ v/|v| for each unit of normal force, v being the slip velocity.
-        along = [self.vector(d) for _, d in friction.directions]
-        speeds = [self.slip(restraint, d) for _, d in friction.directions]
-        slip = sum((axis * speed for axis, speed in zip(along, speeds, strict=True)), start=0.0)
-        size = JETS.functions[Op.SQRT](speeds[0] * speeds[0] + speeds[1] * speeds[1])
-        return direction + slip * (self.scalar(friction.coefficient) * -1.0 / size)
+        pull = self.vector(restraint.direction)
+        for friction in self._known.frictions.get(restraint.name, ()):
+            if friction.is_couple:
+                continue
+            # Sliding friction is -μ v/|v| for each unit of normal force, v being the slip velocity.
+            along = [self.vector(r.direction) for r in friction.sliding]
+            speeds = [self.slip(r, r.direction) for r in friction.sliding]
+            slip = sum((axis * speed for axis, speed in zip(along, speeds, strict=True)), start=0.0)
+            size = JETS.functions[Op.SQRT](sum((speed * speed for speed in speeds), start=0.0))
+            pull = pull + slip * (self.scalar(friction.coefficient) * -1.0 / size)
+        return pull
 
     @property
     def places(self) -> Mapping[Body, Vector]:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from polhode.algebra import Expr, Matrix, Symbol, variables
 from polhode.derive import Automaton
-from polhode.model import Contact, Coulomb
+from polhode.model import Contact, ContactLaw, DryFriction
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion, readable
 from polhode.simulate._names import Name, by_name, published
 from polhode.simulate._task import AS_DECLARED, Task
@@ -73,7 +73,7 @@ class BatchStart:
     dynamics: Dynamics
     states: Mapping[Symbol, Array]
     constants: Mapping[Symbol, Array]
-    contacts: Sequence[Contact]
+    contacts: Sequence[ContactLaw]
 
     @property
     def _count(self) -> int:
@@ -91,9 +91,10 @@ class BatchStart:
                 first, second, third = self._moments(body.inertia, fine).T
                 fine &= (first >= 0) & (first + second >= third * (1 - _ROUNDING))
         for contact in self.contacts:
-            (restitution,) = self._values([contact.restitution])
-            fine &= (restitution >= 0) & (restitution <= 1)
-            if isinstance(contact, Coulomb):
+            if isinstance(contact, Contact):
+                (restitution,) = self._values([contact.restitution])
+                fine &= (restitution >= 0) & (restitution <= 1)
+            if isinstance(contact, DryFriction):
                 kinetic, static = self._values([contact.mu, contact.mu_static])
                 fine &= (kinetic >= 0) & (static >= kinetic)
         return fine
@@ -183,7 +184,7 @@ class BatchSystem(Protocol):
         """The equations of that mode."""
 
     @property
-    def contacts(self) -> tuple[Contact, ...]:
+    def contacts(self) -> tuple[ContactLaw, ...]:
         """The contacts whose coefficients are checked."""
 
     @property
@@ -206,7 +207,7 @@ class OneMode:
     plan: Plan
     intervals: ForcingIntervals
     phases: Phases = ()
-    contacts: tuple[Contact, ...] = ()
+    contacts: tuple[ContactLaw, ...] = ()
 
     def batch_segment(self, phases: Phases) -> BatchSegment:
         return self._only_segment
@@ -251,7 +252,7 @@ class AllModes:
         return self.hybrid.mode(self.phases).dynamics
 
     @property
-    def contacts(self) -> tuple[Contact, ...]:
+    def contacts(self) -> tuple[ContactLaw, ...]:
         return self.hybrid.automaton.contacts
 
     @cached_property
@@ -263,7 +264,7 @@ class AllModes:
         """
         if len(self.intervals.jerks):
             return True
-        rubs = any(isinstance(contact, Coulomb) for contact in self.contacts)
+        rubs = any(isinstance(contact, DryFriction) for contact in self.contacts)
         endings = endings_of(self.hybrid.mode(self.phases), 0.0, self.plan.until)
         return rubs and not all(ending.kind for ending in endings)
 

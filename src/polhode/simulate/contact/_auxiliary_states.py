@@ -11,7 +11,7 @@ from collections.abc import Mapping
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, sqrt
 from polhode.derive import Automaton, Mode
-from polhode.model import Contact, Coulomb, Sliding
+from polhode.model import ContactLaw, DryFriction, Slipping
 from polhode.simulate._dynamics import WORK, Dynamics
 
 
@@ -34,7 +34,7 @@ def dynamics_of(
     return Dynamics(mode.equations, prescribed, tuple(constants), auxiliary, meanings, known)
 
 
-def slip_symbols(contact: Contact) -> tuple[Symbol, Symbol]:
+def slip_symbols(contact: ContactLaw) -> tuple[Symbol, Symbol]:
     """The slip velocity of a sliding contact."""
     first, second = (
         Symbol(f"slip_{label}_{contact.spelled}", SymbolKind.SPEED) for label in contact.on.tangents
@@ -42,12 +42,12 @@ def slip_symbols(contact: Contact) -> tuple[Symbol, Symbol]:
     return first, second
 
 
-def gap_symbol(contact: Contact) -> Symbol:
+def gap_symbol(contact: ContactLaw) -> Symbol:
     """The height of a body above its support."""
     return Symbol(f"gap_{contact.spelled}", SymbolKind.COORDINATE)
 
 
-def edge_distance_symbol(contact: Contact) -> Symbol:
+def edge_distance_symbol(contact: ContactLaw) -> Symbol:
     """The distance of a contact to the edge of its support."""
     return Symbol(f"room_{contact.spelled}", SymbolKind.COORDINATE)
 
@@ -59,13 +59,13 @@ def _auxiliary(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:
     motion = mode.equations.kinetics
     for touch, phase in zip(mode.touches, mode.phases, strict=True):
         contact = touch.contact
-        if phase.flies:
+        if phase.flies and not contact.is_beside:
             auxiliary[gap_symbol(contact)] = touch.closing
         elif touch.reserve:
             auxiliary[edge_distance_symbol(contact)] = touch.edge_distance.chain(motion.rate)
-        if phase.slides and isinstance(contact, Coulomb):
+        if phase.slides and isinstance(contact, DryFriction):
             element = mode.element(contact)
-            if not isinstance(element, Sliding):
+            if not isinstance(element, Slipping):
                 continue
             # The speed and direction of slip in the friction force refer to the integrated slip:
             # with the slip of the rounded state the direction would be arbitrary near zero.

@@ -124,17 +124,10 @@ def kinematic_expressions(mode: Mode) -> list[Expr]:
     J u + rest against the support, along the same, the rests and the rows of J.
     """
     motion = mode.equations.kinetics
-    supports = list[Expr]()  # velocities of the supports at the contacts
     positions = list[Expr]()  # of the centres of mass
     for touch in mode.touches:
-        contact, surface = touch.contact, touch.contact.on
-        centre = motion.places[contact.body]
-        place = centre + contact.arm
-        # the force on a body that carries the surface does work, too: only slip counts then
-        moving = surface.velocity(place) if surface.carrier is None else surface.axes.zero
-        velocity = motion.resolve(moving.express(surface.axes))
+        centre, surface = motion.places[touch.contact.body], touch.contact.on
         labels = (*surface.tangents, surface.normal)
-        supports += [velocity.dot(surface.axes[label]) for label in labels]
         positions += [centre.dot(surface.axes[label]) for label in labels]
     velocities = [v for t in mode.touches for v in (*t.slip, t.closing)]
     # Velocities are linear in the speeds, v = J u + rest: J is also what maps impulses at the
@@ -144,7 +137,7 @@ def kinematic_expressions(mode: Mode) -> list[Expr]:
         *(t.gap for t in mode.touches),
         *(t.reserve for t in mode.touches),
         *(t.reserve.chain(motion.rate) for t in mode.touches),
-        *supports,
+        *(velocity for t in mode.touches for velocity in t.support),
         *positions,
         *(rest for _, rest in parts),
         *(c for row, _ in parts for c in row),

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from polhode.base import NumericError
-from polhode.model import Rolling
+from polhode.model import Contact, Rolling
 from polhode.simulate._absolute_values import SideChangeCount
 from polhode.simulate._event import ModeSwitch
 from polhode.simulate._mode_integration import ModeRun, integrate_mode
@@ -149,7 +149,8 @@ class HybridIntegrator:
             return False
         instant = 8 * self._hybrid.numbers.spacing(last[-1])
         contacts = self._hybrid.automaton.contacts
-        rebounds = any(self._hybrid.value(contact.restitution) > 0 for contact in contacts)
+        given = [c.restitution for c in contacts if isinstance(c, Contact)]
+        rebounds = any(self._hybrid.value(restitution) > 0 for restitution in given)
         return bool(passed <= instant) or not rebounds
 
     def _undecided(self, time: float, modes: set[str]) -> NumericError:

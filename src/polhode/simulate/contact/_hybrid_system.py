@@ -11,7 +11,7 @@ import numpy as np
 from polhode.algebra import Compiled, Expr, Symbol, compile_program
 from polhode.base import NumericError
 from polhode.derive import Automaton, Mode
-from polhode.model import Contact, Phase, Sliding
+from polhode.model import ContactLaw, Phase, Slipping
 from polhode.simulate._absolute_values import Instant, Sides, guards_of_sides, sides_at
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate._independent_speeds import SpeedDependence
@@ -106,6 +106,11 @@ class HybridSystem:
             self._functions[expression, known] = function
         found = self._functions[expression, known](*self.constants.values())[0]
         return self.numbers.scalar(found)
+
+    def closing_with(self, i: int) -> frozenset[int]:
+        """A contact and the couples beside its force, by their places in the declaration."""
+        contacts = self.automaton.contacts
+        return frozenset(k for k, c in enumerate(contacts) if c.pressed_by == contacts[i].name)
 
     @cached_property
     def separated(self) -> CompiledMode:
@@ -294,11 +299,11 @@ class CompiledMode(IntegratedEquations):
         return tuple(s for e in self.sliding for s in (*e.direction, e.slip_speed))
 
     @property
-    def sliding(self) -> tuple[Sliding, ...]:
+    def sliding(self) -> tuple[Slipping, ...]:
         """The contacts that slide with friction."""
-        return tuple(e for e in self.mode.equations.system.elements if isinstance(e, Sliding))
+        return tuple(e for e in self.mode.equations.system.elements if isinstance(e, Slipping))
 
-    def sliding_at(self, contact: Contact) -> Sliding:
+    def sliding_at(self, contact: ContactLaw) -> Slipping:
         """A contact as it slides with friction."""
         return next(e for e in self.sliding if e.name == contact.name)
 

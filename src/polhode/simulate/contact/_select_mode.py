@@ -15,7 +15,16 @@ import numpy as np
 
 from polhode.base import ConstraintError, NumericError
 from polhode.derive import Mode
-from polhode.model import FLIGHT, FRICTIONLESS, ROLLING, SLIDING, Contact, Coulomb, Phase, Rolling
+from polhode.model import (
+    FLIGHT,
+    FRICTIONLESS,
+    HELD,
+    ROLLING,
+    ContactLaw,
+    DryFriction,
+    Phase,
+    Rolling,
+)
 from polhode.simulate.contact._contact_kinematics import ContactKinematics, State
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, directions_of, entered
@@ -62,9 +71,15 @@ def select_mode(hybrid: HybridSystem, shared: State, known: ContactStatus) -> Mo
         for i, (contact, point) in contacts
     ]
     for phases in product(*tried):
+        if not hybrid.automaton.is_possible(phases):
+            continue
         _refuse_undetermined(hybrid.automaton.mode(phases), shared.time)
         still = [_is_still(hybrid, i, point, known) for i, point in enumerate(points)]
         starting = frozenset(i for i, phase in enumerate(phases) if phase.slides and still[i])
+        if not all(
+            _gives_way(hybrid, shared, phases, points, i) for i in starting - known.slipping
+        ):
+            continue
         entry = entered(hybrid, shared, phases, points, starting)
         _refuse_shared(hybrid.in_doubles, entry.rounded())
         for i in sorted(starting):
@@ -82,7 +97,7 @@ def select_mode(hybrid: HybridSystem, shared: State, known: ContactStatus) -> Mo
 
 def _phases(
     hybrid: HybridSystem,
-    contact: Contact,
+    contact: ContactLaw,
     i: int,
     point: ContactKinematics,
     known: ContactStatus,
@@ -91,9 +106,10 @@ def _phases(
     closed = [FRICTIONLESS]
     if isinstance(contact, Rolling):
         closed = [ROLLING]
-    elif isinstance(contact, Coulomb):
+    elif isinstance(contact, DryFriction):
         sticks = _is_still(hybrid, i, point, known) and i not in known.slipping
-        closed = [ROLLING, SLIDING] if sticks else [SLIDING]
+        closed = [p for p in hybrid.automaton.options[i] if p.slides or (p.rolls and sticks)]
+        closed = [p for p in closed if not p.is_beyond]
     # Sticking comes before slip, and contact before flight: where static and kinetic friction
     # differ, or in Painlevé's paradox, several modes may be possible, and a contact keeps to the
     # one with the most constraints.
@@ -108,6 +124,37 @@ def _is_still(hybrid: HybridSystem, i: int, point: ContactKinematics, known: Con
         return True
     slip = hybrid.numbers.size(point.velocity[:2])
     return bool(slip <= hybrid.numbers.finer(NO_SLIP) * point.scale)
+
+
+def _gives_way(
+    hybrid: HybridSystem,
+    shared: State,
+    phases: tuple[Phase, ...],
+    points: list[ContactKinematics],
+    i: int,
+) -> bool:
+    """Whether a couple could not hold what begins to turn, if all else were as it is.
+
+    Without that nothing drives the motion that it would oppose.
+    """
+    contact = hybrid.automaton.contacts[i]
+    if not contact.is_beside:
+        return True
+    held = (*phases[:i], HELD, *phases[i + 1 :])
+    entry = entered(hybrid, shared, held, points, frozenset())
+    forces = hybrid.mode(held).contact_forces(
+        entry.state, shared.time, directions_of(entry, hybrid.numbers)
+    )
+    return _exceeds(hybrid, contact, forces[i])
+
+
+def _exceeds(hybrid: HybridSystem, contact: ContactLaw, force: Array) -> bool:
+    """Whether what keeps a contact from slipping is beyond the limit of its friction."""
+    if not isinstance(contact, DryFriction):
+        return False
+    most = hybrid.value(contact.mu_static) * force[2]
+    tolerance = hybrid.numbers.finer(_TOLERANCE)
+    return bool(hybrid.numbers.size(force[:2]) > most * (1 + tolerance))
 
 
 def _refuse_undetermined(mode: Mode, time: Any) -> None:
@@ -127,7 +174,7 @@ def _refuse_undetermined(mode: Mode, time: Any) -> None:
             "equations derived from the declaration, whose contacts stay as they are",
         ) from error
     if undetermined:
-        rubs = any(isinstance(contact, Coulomb) for contact in undetermined)
+        rubs = any(isinstance(contact, DryFriction) for contact in undetermined)
         raise NumericError(
             f"undetermined forces at {', '.join(c.name for c in undetermined)} at t = "
             f"{float(time):.9g} s, beside contacts with friction",
@@ -176,10 +223,8 @@ def _objection(hybrid: HybridSystem, entry: ModeState) -> str | None:
             continue
         if force[2] < -tolerance * scale:
             return f"{mode.mode.name} would need {contact.name} to pull"
-        if phase.rolls and isinstance(contact, Coulomb):
-            static = hybrid.value(contact.mu_static)
-            if numbers.size(force[:2]) > static * force[2] * (1 + tolerance):
-                return f"{mode.mode.name} would need more friction than {contact.name} has"
+        if phase.rolls and _exceeds(hybrid, contact, force):
+            return f"{mode.mode.name} would need more friction than {contact.name} has"
     return None
 
 

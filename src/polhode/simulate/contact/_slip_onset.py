@@ -21,7 +21,7 @@ from threadpoolctl import ThreadpoolController
 
 from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError, bisected
-from polhode.model import Contact
+from polhode.model import ContactLaw
 from polhode.simulate._dynamics import CLOCK, WORK
 from polhode.simulate._segment import TrajectoryPiece
 from polhode.simulate.contact._auxiliary_states import slip_symbols
@@ -313,7 +313,7 @@ class PolarShape:
     wanted: tuple[Expr, ...]
 
 
-def polar_shape(mode: CompiledMode, entry: ModeState, contacts: Sequence[Contact]) -> PolarShape:
+def polar_shape(mode: CompiledMode, entry: ModeState, contacts: Sequence[ContactLaw]) -> PolarShape:
     """The rates for a mode in which some contacts begin to slip.
 
     Args:
@@ -348,7 +348,7 @@ def slip_onset_piece(
     entry: ModeState,
     state: Mapping[Symbol, Any],
     span: tuple[float, float],
-    contacts: Sequence[Contact],
+    contacts: Sequence[ContactLaw],
 ) -> TrajectoryPiece:
     """The piece on which slip velocities have to be integrated as sizes and directions.
 

@@ -149,6 +149,6 @@ def on_other_speeds(
     return replace(
         again,
         slips=again.slips | integrated,
-        gaps={i: leaving.gaps[i] for i, phase in enumerate(entry.phases) if phase.flies},
+        gaps={i: leaving.gaps[i] for i in leaving.gaps if entry.phases[i].flies},
         edge_distances={i: leaving.edge_distances[i] for i in again.edge_distances},
     )

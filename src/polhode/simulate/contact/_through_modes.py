@@ -6,7 +6,17 @@ from dataclasses import replace
 
 from polhode.base import ConstraintError, DeclarationError, Progress
 from polhode.derive import Automaton
-from polhode.model import FLIGHT, FRICTIONLESS, Apart, Contact, Coulomb, Phase, Rolling
+from polhode.model import (
+    FLIGHT,
+    FRICTIONLESS,
+    Apart,
+    Contact,
+    ContactLaw,
+    Coulomb,
+    DryFriction,
+    Phase,
+    Rolling,
+)
 from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._names import published
 from polhode.simulate._start import read_start, unchecked_start
@@ -31,7 +41,7 @@ def can_be_followed(modes: Automaton) -> bool:
 
     They stay where no contact has friction and Newton's laws do not determine all contact forces.
     """
-    rubs = any(isinstance(contact, Coulomb) for contact in modes.contacts)
+    rubs = any(isinstance(contact, DryFriction) for contact in modes.contacts)
     return rubs or not modes.together.undetermined
 
 
@@ -42,14 +52,13 @@ def check_numbers(hybrid: HybridSystem) -> None:
         DeclarationError: with the contact and the value.
     """
     for contact in hybrid.automaton.contacts:
-        restitution = hybrid.value(contact.restitution)
-        given = [restitution]
+        given = [hybrid.value(contact.restitution)] if isinstance(contact, Contact) else []
         if isinstance(contact, Rolling) and contact.tangential is not None:
             given.append(hybrid.value(contact.tangential))
         for value in given:
             if not 0 <= value <= 1:
                 raise _impossible("restitution", value, contact, "a number from 0 to 1")
-        if isinstance(contact, Coulomb):
+        if isinstance(contact, DryFriction):
             kinetic, static = (hybrid.value(mu) for mu in (contact.mu, contact.mu_static))
             if kinetic < 0:
                 raise _impossible("friction coefficient mu", kinetic, contact, "zero or more")
@@ -62,7 +71,7 @@ def check_numbers(hybrid: HybridSystem) -> None:
                 raise _impossible("friction coefficient mu_static", static, contact, expected)
 
 
-def _impossible(what: str, value: float, contact: Contact, expected: str) -> DeclarationError:
+def _impossible(what: str, value: float, contact: ContactLaw, expected: str) -> DeclarationError:
     return DeclarationError(f"{what} = {value:g} of contact {contact.name!r}", expected=expected)
 
 
@@ -206,7 +215,8 @@ def _read_on_surfaces(
     phases = list[Phase]()
     for i, option in enumerate(hybrid.automaton.options):
         # A slip can be read without friction: start values do not depend on forces.
-        closed = FRICTIONLESS if slips and FRICTIONLESS in option else next(iter(option))
+        free = slips or hybrid.automaton.contacts[i].is_beside
+        closed = FRICTIONLESS if free and FRICTIONLESS in option else next(iter(option))
         phases.append(FLIGHT if i in separated else closed)
     shared, initial = _read(hybrid, tuple(phases), task)
     beyond = hybrid.touching.beyond(shared) - separated

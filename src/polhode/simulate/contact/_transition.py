@@ -12,7 +12,7 @@ import numpy as np
 
 from polhode.base import NumericError
 from polhode.derive import Guard
-from polhode.model import Contact, Coulomb, Rolling
+from polhode.model import Contact, ContactLaw, Coulomb, Rolling
 from polhode.simulate.contact._contact_kinematics import (
     NO_NORMAL_SPEED,
     ContactKinematics,
@@ -87,7 +87,7 @@ class Transitions:
         gaps = {
             k: leaving.gaps[k] if before.phases[k].flies and k != opened else 0.0
             for k, phase in enumerate(entry.phases)
-            if phase.flies
+            if phase.flies and not self._hybrid.automaton.contacts[k].is_beside
         }
         return kind, replace(entry, gaps=gaps, edge_distances=edge_distances)
 
@@ -108,8 +108,9 @@ class Transitions:
         # Contacts that have begun to slip at this very instant have no slip speed yet, and would
         # count as sticking by their speeds alone.
         starting = frozenset(before.onset) if before.shared.time == shared.time else frozenset()
+        lifted = separated | self._hybrid.closing_with(i) if i >= 0 else separated
         known = {
-            "lifts off": ContactStatus(separated | {i}, sticking - {i}, beyond=off_edge),
+            "lifts off": ContactStatus(lifted, sticking - lifted, beyond=off_edge),
             "crosses the edge": ContactStatus(separated, sticking - {i}, beyond=off_edge ^ {i}),
             "slips": ContactStatus(separated, sticking - {i}, starting | {i}, off_edge),
             "sticks": ContactStatus(separated, sticking | {i}, beyond=off_edge),
@@ -128,29 +129,32 @@ class Transitions:
     def _land(self, before: ModeState, shared: State, i: int) -> tuple[str, ModeState]:
         """An impact, if it approaches; then contact, or flight again if it rebounds."""
         hybrid, numbers = self._hybrid, self._hybrid.numbers
-        contact = hybrid.automaton.contacts[i]
+        contacts, contact = hybrid.automaton.contacts, hybrid.automaton.contacts[i]
+        assert isinstance(contact, Contact)
         separated = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
         sticking = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
         off_edge = beyond(before.phases) | (hybrid.touching.beyond(shared) & separated)
         points = hybrid.touching.at(shared, off_edge)
         mass = hybrid.separated.mass(shared)
-        touching = [k for k, phase in enumerate(before.phases) if not phase.flies]
+        own = [k for k, one in enumerate(contacts) if not one.is_beside]
+        touching = [k for k in own if not before.phases[k].flies]
         # Contacts that land at the same time would bounce in an order that rounding decides.
-        meeting = [k for k in separated - {i} if self._lands_too(points[k], shared.time)]
+        meeting = [
+            k for k in own if k in separated - {i} and self._lands_too(points[k], shared.time)
+        ]
         # A contact at rest pushes back where the impulse changes its normal velocity, and one that
         # never slips also where it changes the others. Without a normal impulse there is none of
         # friction either: a contact that stuck then slips.
         acting = _TANGENTIAL + _NORMAL if _is_rough(contact) else _NORMAL
-        others = hybrid.automaton.contacts
 
         def affects(k: int, directions: list[int]) -> bool:
             return _affects(points[k], points[i], mass, numbers, directions, acting)
 
         def feels(k: int) -> bool:
-            sticks = isinstance(others[k], Rolling) or (k in meeting and _is_rough(others[k]))
+            sticks = isinstance(contacts[k], Rolling) or (k in meeting and _is_rough(contacts[k]))
             return affects(k, _NORMAL) or (sticks and affects(k, _TANGENTIAL))
 
-        if affected := [others[k].name for k in (*touching, *meeting) if feels(k)]:
+        if affected := [contacts[k].name for k in (*touching, *meeting) if feels(k)]:
             raise NumericError(
                 f"{contact.name} lands at t = {float(shared.time):.9g} s, and the contact "
                 f"{affected[0]} feels the impact",
@@ -162,13 +166,13 @@ class Transitions:
         point = points[i]
         slow = self._slow(point)
         open_again = ContactStatus(separated, sticking, beyond=off_edge)
-        closed = ContactStatus(separated - {i}, sticking, beyond=off_edge)
+        closed = ContactStatus(separated - hybrid.closing_with(i), sticking, beyond=off_edge)
         # A contact whose height falls through zero while it opens was found by rounding: no impact.
         if point.velocity[2] > slow:
             return "touches down", select_mode(hybrid, shared, open_again)
         if point.velocity[2] >= -slow:  # without an impact
             return "touches down", select_mode(hybrid, shared, closed)
-        self._refuse_impulsive_loads(contact, shared.time)
+        self._refuse_impulsive_loads(i, shared.time)
         inverse_mass = point.jacobian @ numbers.solved(mass, point.jacobian.T)
         impact = self._impact(contact, inverse_mass, point.velocity, shared.time)
         # Work of an impulse: impulse times the mean of the velocities before and after, here of the
@@ -193,13 +197,15 @@ class Transitions:
         """Normal velocity of a contact that counts as none, m/s."""
         return self._hybrid.numbers.finer(NO_NORMAL_SPEED) * point.scale
 
-    def _refuse_impulsive_loads(self, contact: Contact, time: float) -> None:
-        """Refuse an impact in a system with loads in proportion to reactions."""
-        lines = self._hybrid.automaton.together.equations.lines
-        if names := [line.name for line in lines if line.loads]:
+    def _refuse_impulsive_loads(self, i: int, time: float) -> None:
+        """Refuse an impact in a system with loads or couples in proportion to reactions."""
+        modes = self._hybrid.automaton
+        lines, name = modes.together.equations.lines, modes.contacts[i].name
+        found = [f"loads in proportion to {line.name}" for line in lines if line.loads]
+        found += [modes.contacts[k].name for k in self._hybrid.closing_with(i) - {i}]
+        if found:
             raise NumericError(
-                f"an impact of {contact.name} at t = {float(time):.9g} s, with loads in proportion "
-                f"to {', '.join(names)}",
+                f"an impact of {name} at t = {float(time):.9g} s, with {', '.join(found)}",
                 expected="a landing without an impact: the impulse of such loads is not known",
                 advice="end the motion before that time, or start in contact",
             )
@@ -223,7 +229,7 @@ class Transitions:
 _NORMAL, _TANGENTIAL = [2], [0, 1]
 
 
-def _is_rough(contact: Contact) -> bool:
+def _is_rough(contact: ContactLaw) -> bool:
     """Whether an impact has a tangential impulse."""
     return isinstance(contact, Coulomb | Rolling)
 

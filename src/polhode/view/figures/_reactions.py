@@ -108,7 +108,7 @@ def reaction_ranges(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
 
 def _forces(run: Trajectory) -> dict[str, Array]:
     """Components of all contact modes along the motion, by name."""
-    couples = {line.name for e in modes_of(run) for line in e.lines if line.restraint.is_couple}
+    couples = {name for e in modes_of(run) for name in e.couples}
     names = [
         n for n in dict.fromkeys(n for e in modes_of(run) for n in e.least) if n not in couples
     ]
