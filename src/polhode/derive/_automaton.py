@@ -153,6 +153,7 @@ def guards_of(
     equations: Equations, touches: tuple[Touch, ...], phases: tuple[Phase, ...]
 ) -> Iterator[Guard]:
     """The guards of a mode, exact; accelerations and reactions occur in them as derived."""
+    open_ = set(equations.undetermined)
     for touch, phase in zip(touches, phases, strict=True):
         contact = touch.contact
         if isinstance(contact, Contact):
@@ -160,8 +161,14 @@ def guards_of(
         if phase.flies:
             if not contact.is_beside:
                 yield Guard(contact, "touches down", touch.gap)
-        else:
-            yield from _guards_in_contact(equations, touch, phase)
+            continue
+        if open_.isdisjoint(_forces(contact)):
+            yield from _guards_of_forces(equations, contact, phase)
+        if touch.reserve:
+            yield Guard(contact, "crosses the edge", touch.edge_distance)
+        if phase.slides:
+            first, second = touch.slip
+            yield Guard(contact, "sticks", first * first + second * second)
     for side in equations.assumed_positive:
         yield Guard(None, "near-flat", side)
 
@@ -175,25 +182,24 @@ def _guards_of_place(equations: Equations, contact: Contact) -> Iterator[Guard]:
             yield Guard(contact, limit.kind, limit.positive)
 
 
-def _guards_in_contact(equations: Equations, touch: Touch, phase: Phase) -> Iterator[Guard]:
-    contact = touch.contact
+def _forces(contact: ContactLaw) -> list[str]:
+    """Names of its components: along the normal, then along the support."""
+    along = (contact.component(label) for label in contact.on.tangents)
+    return [contact.component(contact.on.normal), *filter(None, along)]
+
+
+def _guards_of_forces(equations: Equations, contact: ContactLaw, phase: Phase) -> Iterator[Guard]:
+    """Where a contact opens, or what keeps it from slipping is at its limit."""
     if not contact.is_beside:
         normal = equations.components[contact.component(contact.on.normal)]
         yield Guard(contact, "lifts off", normal)
     if phase.rolls and isinstance(contact, DryFriction):
         # (μₛ N)² - |F|², N²: squares keep the guard free of roots, and smooth where F = 0
         # of long forces not multiplied out, which would make thousands of terms of hundreds
-        along = (contact.component(label) for label in contact.on.tangents)
-        names = (contact.component(contact.on.normal), *filter(None, along))
-        parts = (equations.components[name] for name in names)
+        parts = (equations.components[name] for name in _forces(contact))
         pressed, *rubbed = (p if length(p) <= _LONG else named(p) for p in parts)
         most = (contact.mu_static * pressed) ** 2
         yield Guard(contact, "slips", most - sum((f * f for f in rubbed), ZERO))
-    if touch.reserve:
-        yield Guard(contact, "crosses the edge", touch.edge_distance)
-    if phase.slides:
-        first, second = touch.slip
-        yield Guard(contact, "sticks", first * first + second * second)
 
 
 #: The phase of every contact, in the order of the declaration.
@@ -228,8 +234,7 @@ class Mode:
         return tuple(
             touch.contact
             for touch, phase in zip(self.touches, self.phases, strict=True)
-            if not phase.flies
-            and loose & {touch.contact.component(label) for label in touch.contact.on.axes.labels}
+            if not phase.flies and not loose.isdisjoint(_forces(touch.contact))
         )
 
     def phase(self, contact: ContactLaw) -> Phase:

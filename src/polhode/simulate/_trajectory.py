@@ -144,11 +144,11 @@ class Trajectory(Shown):
     def evaluate(self, quantity: str | Symbol | Expr, t: float | Array | None = None) -> Array:
         """A quantity, by name or as an expression, at some times (the samples); shaped like them.
 
-        A reaction of a contact that is open is zero.
+        A reaction of a contact that is open is zero, and nan while Newton's laws leave it open.
 
         Raises:
             DeclarationError: for a name or symbol that the system does not have.
-            NumericError: for a time outside the motion, or an undetermined reaction.
+            NumericError: for a time outside the motion, or a reaction that is never determined.
         """
         times = self.t if t is None else self._times(t)
         return np.asarray(self._values([quantity], times)[0])
@@ -266,13 +266,23 @@ class Trajectory(Shown):
             return self._readable[segment].get(quantity.published, Expr.generator(quantity))
         if not isinstance(quantity, str):
             return Expr.of(quantity)
-        if quantity in self.segments[segment].dynamics.equations.undetermined:
+        if self._is_undetermined(quantity, segment):
             raise NumericError(
                 f"the reaction {quantity} is not determined by Newton's laws",
                 expected=f"one of {', '.join(self.reactions)}",
                 advice="evaluate equations.least[...] for the reactions of least norm",
             )
         return look_up(quantity, self._readable[segment], "quantity of this system")
+
+    def _is_undetermined(self, name: str, segment: int) -> bool:
+        """Whether Newton's laws leave a reaction open in a mode."""
+        return name in self.segments[segment].dynamics.equations.undetermined
+
+    def _is_open(self, quantity: str | Symbol | Expr, segment: int) -> bool:
+        """Whether it is a reaction that is open in this mode, but not in all."""
+        if not isinstance(quantity, str) or not self._is_undetermined(quantity, segment):
+            return False
+        return quantity in self.reactions
 
     def _times(self, t: float | Array) -> Array:
         times: Array = self._numbers.array(t)
@@ -291,8 +301,13 @@ class Trajectory(Shown):
         found = np.empty((len(wanted), len(flat)), dtype=self._numbers.dtype)
         for i in occurring(which):
             here = which == i
-            expressions = [self._expression(quantity, int(i)) for quantity in wanted]
+            open_ = [k for k, quantity in enumerate(wanted) if self._is_open(quantity, int(i))]
+            expressions = [
+                _NOTHING if k in open_ else self._expression(quantity, int(i))
+                for k, quantity in enumerate(wanted)
+            ]
             found[:, here] = self.segments[i].values(expressions, flat[here])
+            found[np.ix_(open_, here)] = np.nan
         return found.reshape(len(wanted), *times.shape)
 
 

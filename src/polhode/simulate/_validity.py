@@ -66,7 +66,7 @@ def pulling_contacts(trajectory: Trajectory, unguarded: bool) -> Iterator[tuple[
     contact might push.
 
     Args:
-        unguarded: whether contacts are kept closed; otherwise those with determined forces open.
+        unguarded: whether contacts are kept closed; otherwise those that would have to pull open.
     """
     equations: Any = trajectory.equations
     if len({segment.mode for segment in trajectory.segments}) > 1:
@@ -74,7 +74,7 @@ def pulling_contacts(trajectory: Trajectory, unguarded: bool) -> Iterator[tuple[
     for contact in _contacts(trajectory):
         normal = f"{contact.force}_{contact.on.normal}{contact.body.tag}"
         is_open = normal in equations.undetermined
-        if is_open or (unguarded and normal in trajectory.reactions):
+        if unguarded and (is_open or normal in trajectory.reactions):
             time = _first_fall(trajectory, equations.least[normal] if is_open else normal)
             if time is not None:
                 yield time, f"{contact.name} {'may pull' if is_open else 'pulls'}"

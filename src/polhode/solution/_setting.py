@@ -368,7 +368,8 @@ def setting_of(equations: Equations) -> Setting:
     places = equations.kinetics.places
     if any(element.friction(places) for element in equations.kinetics.elements):
         raise ConstraintError(
-            f"a worked solution of {equations.system.name!r}, with friction",
+            f"a worked solution of {equations.system.name!r}, with sliding friction or a couple of "
+            "rolling resistance",
             expected="contacts that roll or have no friction: the direction of friction "
             "changes with the motion, and nothing has a short form",
             advice="simulate it, or replace Coulomb by Rolling or Smooth, and leave out rolling "

@@ -74,7 +74,8 @@ class ShownEquations:
 
     Attributes:
         motion: of motion, rates that are not speeds, and what letters in them stand for.
-        reactions: every component that Newton's laws determine, and the letters that they add.
+        reactions: every component that Newton's laws determine, the letters that they add, and the
+            names of components that are left open.
     """
 
     motion: tuple[Formula, ...]
@@ -95,11 +96,12 @@ def equations_shown(run: Trajectory) -> ShownEquations:
     images = iter(zip(written[::2], written[1::2], strict=True))
     left = dict(letters)
     shown = []
-    for groups in (motion, reactions):
+    open_ = {mode: equations.undetermined for mode, equations in modes.items()}
+    for groups, unsaid in ((motion, {}), (reactions, open_)):
         named = {mode: [next(images) for _ in rows] for mode, rows in groups.items()}
         used = (side for rows in named.values() for row in rows for side in row)
         defined = _defined(used, left)
-        shown.append((*_headed(named), *meanings_of(defined)))
+        shown.append((*_headed(named, unsaid), *meanings_of(defined)))
     return ShownEquations(*shown)
 
 
@@ -117,11 +119,23 @@ def _reactions(equations: Equations) -> Iterator[_Row]:
             yield Expr.generator(Symbol(name)), value
 
 
-def _headed(modes: Mapping[str, Sequence[_Row]]) -> Iterator[Formula]:
-    """The formulas of every contact mode, headed by its name if there are several."""
+def _headed(
+    modes: Mapping[str, Sequence[_Row]], undetermined: Mapping[str, Sequence[str]]
+) -> Iterator[Formula]:
+    """The formulas of every contact mode, headed by its name if there are several.
+
+    Args:
+        modes: both sides of equations.
+        undetermined: names of reactions that Newton's laws leave open.
+    """
     for mode, rows in modes.items():
+        heading = mode if len(modes) > 1 else ""
         for i, (left, right) in enumerate(rows):
-            yield equation(mode if len(modes) > 1 and i == 0 else "", left, right)
+            yield equation(heading if i == 0 else "", left, right)
+        if names := undetermined.get(mode):
+            letters = ", ".join(Expr.generator(Symbol(name)).pretty() for name in names)
+            words = f"{letters}: left open by Newton's laws"
+            yield Formula("" if rows else heading, (), words)
 
 
 def _defined(used: Iterable[Expr], left: dict[Generator, Expr]) -> dict[Generator, Expr]:

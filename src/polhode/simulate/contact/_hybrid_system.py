@@ -317,11 +317,12 @@ class CompiledMode(IntegratedEquations):
         return lambda state, time, directions: forces(state, time, directions).reshape(-1, 3)
 
     @cached_property
-    def closing_rates(self) -> Callable[[Array, Any], Array]:
-        """Normal acceleration of every open contact, m/s², shape (contacts,), for any slips."""
-        rates = self.function(closing_rates_of(self.mode), self.directions)
-        no_slip = [0.0] * len(self.directions)
-        return lambda state, time: rates(state, time, no_slip)
+    def closing_rates(self) -> Function:
+        """Normal acceleration of every contact, m/s², shape (contacts,).
+
+        A function of the state, the time, and the directions and speeds of slip.
+        """
+        return self.function(closing_rates_of(self.mode), self.directions)
 
     @cached_property
     def room_rates(self) -> Function:

@@ -163,7 +163,8 @@ class ModePieces(ABC):
         state, now = entry.state, entry.shared.time
         points = self._hybrid.touching.at(entry.shared, beyond(entry.phases))
         if entry.gaps:
-            falls = mode.closing_rates(state, now)
+            directions = directions_of(entry, self._hybrid.numbers)
+            falls = mode.closing_rates(state, now, directions)
             rising += [(gap, points[i].velocity[2], falls[i]) for i, gap in entry.gaps.items()]
         if entry.edge_distances:
             second_rates = mode.room_rates(state, now, directions_of(entry, self._hybrid.numbers))

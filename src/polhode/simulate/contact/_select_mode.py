@@ -6,7 +6,7 @@ possible if no contact has to pull, and static friction stays within its limit �
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import permutations, product
 from typing import Any
@@ -25,7 +25,12 @@ from polhode.model import (
     Phase,
     Rolling,
 )
-from polhode.simulate.contact._contact_kinematics import ContactKinematics, State
+from polhode.simulate.contact._at_rest import rests
+from polhode.simulate.contact._contact_kinematics import (
+    NO_NORMAL_SPEED,
+    ContactKinematics,
+    State,
+)
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, directions_of, entered
 from polhode.simulate.integrate._arrays import Array
@@ -73,7 +78,7 @@ def select_mode(hybrid: HybridSystem, shared: State, known: ContactStatus) -> Mo
     for phases in product(*tried):
         if not hybrid.automaton.is_possible(phases):
             continue
-        _refuse_undetermined(hybrid.automaton.mode(phases), shared.time)
+        undetermined = _undetermined(hybrid.automaton.mode(phases), shared.time)
         still = [_is_still(hybrid, i, point, known) for i, point in enumerate(points)]
         starting = frozenset(i for i, phase in enumerate(phases) if phase.slides and still[i])
         if not all(
@@ -81,10 +86,16 @@ def select_mode(hybrid: HybridSystem, shared: State, known: ContactStatus) -> Mo
         ):
             continue
         entry = entered(hybrid, shared, phases, points, starting)
-        _refuse_shared(hybrid.in_doubles, entry.rounded())
-        for i in sorted(starting):
-            entry.onset[i] = onset_angle(hybrid, entry, i)
-        failure = _objection(hybrid, entry)
+        if undetermined:
+            held = rests(hybrid.in_doubles, entry.rounded())
+            if held is None:
+                raise _open_forces(undetermined, shared.time)
+            if held:
+                return entry
+            failures.append(f"{hybrid.mode(phases).mode.name} would need more friction")
+            continue
+        failure = _begins(hybrid, entry) or _objection(hybrid, entry)
+        failure = failure or _would_close(hybrid, entry, points, known)
         if failure is None:
             return entry
         failures.append(failure)
@@ -157,15 +168,14 @@ def _exceeds(hybrid: HybridSystem, contact: ContactLaw, force: Array) -> bool:
     return bool(hybrid.numbers.size(force[:2]) > most * (1 + tolerance))
 
 
-def _refuse_undetermined(mode: Mode, time: Any) -> None:
-    """Refuse contact forces that Newton's laws leave open, on which the next mode depends.
+def _undetermined(mode: Mode, time: Any) -> tuple[ContactLaw, ...]:
+    """The contacts with forces that Newton's laws leave open.
 
     Raises:
         ConstraintError: where the joints alone cannot keep the bodies as declared.
-        NumericError: where forces are undetermined.
     """
     try:
-        undetermined = mode.undetermined
+        return mode.undetermined
     except ConstraintError as error:
         raise ConstraintError(
             f"at t = {float(time):.9g} s, {mode.name}: {error.given}",
@@ -173,36 +183,119 @@ def _refuse_undetermined(mode: Mode, time: Any) -> None:
             advice="declare what holds the bodies where the contact gives way, or simulate the "
             "equations derived from the declaration, whose contacts stay as they are",
         ) from error
-    if undetermined:
-        rubs = any(isinstance(contact, DryFriction) for contact in undetermined)
-        raise NumericError(
-            f"undetermined forces at {', '.join(c.name for c in undetermined)} at t = "
-            f"{float(time):.9g} s, beside contacts with friction",
-            expected="contacts whose normal and friction forces Newton's laws determine",
-            advice="declare the contacts Rolling or Smooth, or take one of them away"
-            if rubs
-            else "declare bodies that do not interact as systems of their own",
-        )
 
 
-def _refuse_shared(hybrid: HybridSystem, entry: ModeState) -> None:
-    """Refuse slips that begin together and influence one another's direction.
+def _open_forces(undetermined: tuple[ContactLaw, ...], time: Any) -> NumericError:
+    """The error for contact forces that Newton's laws leave open, and a motion that needs them."""
+    rubs = any(isinstance(contact, DryFriction) for contact in undetermined)
+    return NumericError(
+        f"undetermined forces at {', '.join(c.name for c in undetermined)} at t = "
+        f"{float(time):.9g} s, beside contacts with friction",
+        expected="contacts whose normal and friction forces Newton's laws determine, or bodies at "
+        "rest under loads that stay as they are",
+        advice="declare the contacts Rolling or Smooth, or take one of them away"
+        if rubs
+        else "declare bodies that do not interact as systems of their own",
+    )
+
+
+def _begins(hybrid: HybridSystem, entry: ModeState) -> str | None:
+    """Find the directions in which slips begin; or say why they do not.
 
     Raises:
-        NumericError: with the contacts.
+        NumericError: where there is no direction, or more than one.
     """
+    if _influence_one_another(hybrid.in_doubles, entry.rounded()):
+        found = joint_onset(hybrid.in_doubles, entry.rounded())
+        if found is None:
+            name = hybrid.mode(entry.phases).mode.name
+            return f"{name} has no directions in which all slips that begin together grow"
+        entry.onset.update(found)
+        return None
+    for i in entry.onset:
+        angle = onset_angle(hybrid, entry, i)
+        if angle is None:
+            mode, contact = hybrid.mode(entry.phases).mode, hybrid.automaton.contacts[i]
+            return f"{mode.name} has no direction in which slip grows at {contact.name}"
+        entry.onset[i] = angle
+    return None
+
+
+def _influence_one_another(hybrid: HybridSystem, entry: ModeState) -> bool:
+    """Whether slips that begin together influence one another's direction."""
     mode, angles = hybrid.mode(entry.phases), np.linspace(0.0, 2 * np.pi, 8)
-    for i, j in permutations(entry.onset, 2):
-        rates = rates_along(mode, entry, j, i, angles)
-        if np.max(np.ptp(rates, axis=1)) > NO_SLIP * np.max(np.abs(rates)):
-            names = ", ".join(hybrid.automaton.contacts[k].name for k in entry.onset)
-            raise NumericError(
-                f"slip begins at several contacts at the same time, t = {entry.shared.time:.9g} s: "
-                f"{names}",
-                expected="contacts that do not influence each other, since otherwise the "
-                "directions of slip are not determined",
-                advice="end the motion before that time, or change one coefficient of friction",
-            )
+    found = (rates_along(mode, entry, j, i, angles) for i, j in permutations(entry.onset, 2))
+    return any(np.max(np.ptp(r, axis=1)) > NO_SLIP * np.max(np.abs(r)) for r in found)
+
+
+def joint_onset(hybrid: HybridSystem, entry: ModeState) -> dict[int, float] | None:
+    """The directions (angles, rad) in which several contacts begin to slip together.
+
+    Each slip starts along its own rate, on which the friction of all depends. Found by iteration
+    from the directions that there would be without friction, and from their opposites.
+
+    Raises:
+        NumericError: where different directions are possible.
+    """
+    mode, places = hybrid.mode(entry.phases), sorted(entry.onset)
+    rows = [sorted(entry.slips).index(i) for i in places]
+    given = np.array(directions_of(entry), dtype=float).reshape(-1, 3)
+
+    def rates(units: Array) -> Array:
+        given[rows] = np.hstack([units, np.zeros((len(rows), 1))])
+        found = mode.slip_rates(entry.state, entry.shared.time, given.ravel().tolist())
+        return np.asarray(found[places], dtype=float)
+
+    free = rates(np.zeros((len(rows), 2)))
+    # How much the friction of all may change each rate.
+    felt = np.zeros((len(rows), 1))
+    for k, axis in product(range(len(rows)), range(2)):
+        unit = np.zeros_like(free)
+        unit[k, axis] = 1.0
+        felt += np.linalg.norm(rates(unit) - free, axis=1, keepdims=True)
+    if np.min(np.hypot(*free.T)) <= NO_SLIP * np.max(np.abs(free)):
+        return None
+    first, found = free / np.hypot(*free.T)[:, None], list[Array]()
+    for signs in product((1.0, -1.0), repeat=len(rows)):
+        units = _settled(rates, first * np.array(signs)[:, None], felt)
+        if units is not None and all(np.max(np.abs(units - u)) > 1e-6 for u in found):
+            found.append(units)
+    if len(found) > 1:
+        names = ", ".join(hybrid.automaton.contacts[k].name for k in places)
+        raise NumericError(
+            f"slip begins at several contacts at the same time, t = {entry.shared.time:.9g} s: "
+            f"{names}, in {len(found)} ways",
+            expected="friction with which the directions of slip are determined",
+            advice="end the motion before that time, or change one coefficient of friction",
+        )
+    if not found:
+        return None
+    return {i: float(np.arctan2(y, x)) for i, (x, y) in zip(places, found[0], strict=True)}
+
+
+_ROUNDS = 500  # of the iteration; its changes shrink by a factor, or do not end
+
+
+def _settled(rates: Callable[[Array], Array], units: Array, felt: Array) -> Array | None:
+    """Directions along their own rates, near some others; None where there are none.
+
+    The direction in which a little of the slip of each turns: at its fixed point the rate is along
+    it, and there are such points even where slip begins gently, with no rate at first.
+    """
+    for _ in range(_ROUNDS):
+        found = rates(units)
+        turned = felt * units + found
+        sizes = np.hypot(*turned.T)
+        if not np.all(np.isfinite(sizes)) or np.min(sizes) == 0:
+            return None
+        after: Array = turned / sizes[:, None]
+        change, units = np.max(np.abs(after - units)), after
+        if change < 1e-15:
+            break
+    else:
+        return None
+    grows = np.sum(rates(units) * units, axis=1)
+    return units if np.all(grows > -1e-9 * felt[:, 0]) else None
 
 
 def _objection(hybrid: HybridSystem, entry: ModeState) -> str | None:
@@ -225,6 +318,41 @@ def _objection(hybrid: HybridSystem, entry: ModeState) -> str | None:
             return f"{mode.mode.name} would need {contact.name} to pull"
         if phase.rolls and _exceeds(hybrid, contact, force):
             return f"{mode.mode.name} would need more friction than {contact.name} has"
+    return None
+
+
+#: Acceleration that counts as none, of those without contact.
+_NO_ACCELERATION = 1e-9
+
+
+def _would_close(
+    hybrid: HybridSystem,
+    entry: ModeState,
+    points: list[ContactKinematics],
+    known: ContactStatus,
+) -> str | None:
+    """Why a contact cannot open in a mode: without its force it would be pressed on its support.
+
+    One contact opens where it would have to pull; of several that is to be looked at.
+    """
+    contacts, time = hybrid.automaton.contacts, entry.shared.time
+    opening = [
+        i
+        for i, phase in enumerate(entry.phases)
+        if phase.flies
+        and i not in known.separated
+        and not contacts[i].is_beside
+        and points[i].velocity[2] <= hybrid.numbers.finer(NO_NORMAL_SPEED) * points[i].scale
+    ]
+    if len(contacts) == 1 or not opening:
+        return None
+    mode, free = hybrid.mode(entry.phases), hybrid.separated
+    rates = mode.closing_rates(entry.state, time, directions_of(entry, hybrid.numbers))
+    shared = np.concatenate([entry.shared.coordinates, entry.shared.speeds])
+    least = -_NO_ACCELERATION * np.max(np.abs(free.closing_rates(shared, time, ())))
+    for i in opening:
+        if rates[i] < least:
+            return f"{mode.mode.name} would press {contacts[i].name} on its support"
     return None
 
 
@@ -253,12 +381,14 @@ def onset_angle(hybrid: HybridSystem, entry: ModeState, i: int) -> Any:
     """The direction (angle, rad) in which a contact begins to slip.
 
     Kinetic friction opposes the slip to come, and the slip starts along its own rate: the direction
-    ŝ solves ṡ(ŝ) × ŝ = 0 with ṡ(ŝ) · ŝ ≥ 0.
+    ŝ solves ṡ(ŝ) × ŝ = 0 with ṡ(ŝ) · ŝ ≥ 0. None where there is none, and others may slip instead.
 
     Raises:
         NumericError: where no direction, or more than one, is possible.
     """
     near = _rough_angle(hybrid.in_doubles, entry.rounded(), i)
+    if near is None:
+        return None
     mode, numbers = hybrid.mode(entry.phases), hybrid.numbers
 
     def across(angle: Any) -> Any:
@@ -271,7 +401,7 @@ def onset_angle(hybrid: HybridSystem, entry: ModeState, i: int) -> Any:
     return numbers.zero(across, near)
 
 
-def _rough_angle(hybrid: HybridSystem, entry: ModeState, i: int) -> float:
+def _rough_angle(hybrid: HybridSystem, entry: ModeState, i: int) -> float | None:
     """The direction in double precision, from brackets all around the circle."""
     mode = hybrid.mode(entry.phases)
 
@@ -291,12 +421,14 @@ def _rough_angle(hybrid: HybridSystem, entry: ModeState, i: int) -> float:
     grid = np.linspace(-np.pi, np.pi, _ANGLES + 1) + 0.0123
     rates = rates_along(mode, entry, i, i, grid)
     values = rates[1] * np.cos(grid) - rates[0] * np.sin(grid)
-    found = bracketed_zeros(across, grid, values)
     size = float(np.max(np.hypot(*rates)))
+    found = bracketed_zeros(across, grid, values) if size else []
     # Slip may begin gently, with no acceleration at first: then its growth is zero to rounding.
     growing = [angle for angle in found if along(angle) > -1e-9 * size]
     if len(growing) == 1:
         return growing[0]
+    if not growing and len(hybrid.automaton.contacts) > 1:
+        return None
     name = hybrid.automaton.contacts[i].name
     which = "several directions" if growing else "no direction"
     raise NumericError(

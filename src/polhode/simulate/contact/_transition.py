@@ -27,7 +27,7 @@ from polhode.simulate.contact._impact import (
     rough_impact,
     smooth_impact,
 )
-from polhode.simulate.contact._mode_state import ModeState, beyond
+from polhode.simulate.contact._mode_state import ModeState, beyond, directions_of
 from polhode.simulate.contact._select_mode import ContactStatus, select_mode
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._number_types import NumberType
@@ -185,7 +185,8 @@ class Transitions:
         if impact.velocity[2] > numbers.finer(_REBOUND) * hardest:
             bounced = select_mode(hybrid, after, open_again)
             time = bounced.shared.time
-            fall = hybrid.mode(bounced.phases).closing_rates(bounced.state, time)[i]
+            directions = directions_of(bounced, numbers)
+            fall = hybrid.mode(bounced.phases).closing_rates(bounced.state, time, directions)[i]
             hop = fall_of(0.0, impact.velocity[2], fall) if fall < 0 else np.inf
             if hop > _INSTANT * numbers.spacing(time):
                 return "bounces", bounced
