@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from polhode.algebra import time as time
     from polhode.algebra import to_sympy as to_sympy
     from polhode.analyse import Ansatz as Ansatz
+    from polhode.analyse import Blow as Blow
     from polhode.analyse import ClosedForm as ClosedForm
     from polhode.analyse import Condition as Condition
     from polhode.analyse import Departures as Departures
@@ -67,6 +68,7 @@ if TYPE_CHECKING:
     from polhode.analyse import stability as stability
     from polhode.analyse import steady as steady
     from polhode.analyse import steady_values as steady_values
+    from polhode.analyse import strike as strike
     from polhode.base import ConstraintError as ConstraintError
     from polhode.base import DeclarationError as DeclarationError
     from polhode.base import DriftWarning as DriftWarning
@@ -212,10 +214,10 @@ _NAMES = {
         sqrt symbol symbols tan tanh taylor time to_sympy
     """,
     "analyse": """
-        Ansatz ClosedForm Condition Departures Invariant Invariants Lagrangian LinearIntegrals
+        Ansatz Blow ClosedForm Condition Departures Invariant Invariants Lagrangian LinearIntegrals
         Opening Stability SteadyMotion SteadyValues Truth closed_form contact_forces departures
         expand fictitious_force fictitious_torque invariants lagrangian leaves linear_integrals
-        stability steady steady_values
+        stability steady steady_values strike
     """,
     "base": """
         ConstraintError DeclarationError DriftWarning NumericError ParseError PolhodeError

@@ -37,6 +37,8 @@ from polhode.analyse._steady import SteadyMotion as SteadyMotion
 from polhode.analyse._steady import SteadyValues as SteadyValues
 from polhode.analyse._steady import steady as steady
 from polhode.analyse._steady import steady_values as steady_values
+from polhode.analyse._strike import Blow as Blow
+from polhode.analyse._strike import strike as strike
 from polhode.analyse._vectors import frame_along as frame_along
 from polhode.analyse._vectors import frames_of as frames_of
 from polhode.analyse._vectors import named_vectors as named_vectors

@@ -110,4 +110,5 @@ from polhode.model._system import with_edge as with_edge
 from polhode.model._system import with_elements as with_elements
 from polhode.model._system import with_friction as with_friction
 from polhode.model._system import with_independent as with_independent
+from polhode.model._system import with_loads as with_loads
 from polhode.model._torus import Torus as Torus

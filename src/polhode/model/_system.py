@@ -210,6 +210,13 @@ def with_elements(system: System, elements: dict[str, Element]) -> System:
     return System(*parts, name=system.name, independent=kept, speeds=_chosen(system))
 
 
+def with_loads(system: System, *loads: Load) -> System:
+    """The same system with further loads."""
+    kept = [Expr.generator(symbol) for symbol in system.independent]
+    parts: tuple[Part, ...] = (*system.bodies, *system.elements, *system.loads, *loads)
+    return System(*parts, name=system.name, independent=kept, speeds=_chosen(system))
+
+
 def _chosen(system: System) -> dict[str | Expr, Expr]:
     """The speeds that a user chose, as they were given."""
     return {symbol.name: meaning for symbol, meaning in system.speeds}

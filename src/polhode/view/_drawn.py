@@ -16,6 +16,7 @@ from polhode.model import (
     Body,
     BodyPoint,
     Contact,
+    DryFriction,
     Gravity,
     Hinge,
     Hold,
@@ -225,7 +226,9 @@ def arrows_in(system: System, modes: Sequence[Equations]) -> Iterator[DrawnArrow
         for name, reaction in equations.reactions.items():
             attached.setdefault(name, reaction.body)
     for name, body in attached.items():
-        yield DrawnArrow("force", f"force at {name}", "", body, "N", *_reaction(name, body))
+        limited = isinstance(system.element(name), DryFriction)
+        force, foot = _reaction(name, body, limited=limited)
+        yield DrawnArrow("force", f"force at {name}", "", body, "N", force, foot)
     for load in system.loads:
         for body in system.bodies:
             force = _force(load, body)
@@ -241,14 +244,17 @@ def _letter(load: Load, body: Body) -> str:
     return inline(body.mass * load.g) if isinstance(load, Gravity) else ""
 
 
-def _reaction(name: str, body: Body) -> tuple[VectorInMode, VectorInMode]:
-    """A reaction, and where it acts."""
+def _reaction(name: str, body: Body, *, limited: bool) -> tuple[VectorInMode, VectorInMode]:
+    """A reaction, and where it acts.
+
+    Components that Newton's laws leave undetermined get the least-squares choice, unless friction
+    limits them, which that choice knows nothing of.
+    """
 
     def force(equations: Equations) -> Vector | None:
         reaction = equations.reactions.get(name)
-        if reaction is None:
+        if reaction is None or (limited and equations.undetermined):
             return None
-        # Components that Newton's laws leave undetermined get the least-squares choice.
         undetermined = map(Symbol, equations.undetermined)
         least = {Expr.generator(s): equations.least[s.name] for s in undetermined}
         return reaction.force.subs({**least})

@@ -110,6 +110,18 @@ def alone(expression: Expr) -> Formula:
     return Formula("", tuple(_pieces(_row(expression))), spoken)
 
 
+def listed(name: str, expressions: Iterable[Expr], words: str) -> Formula:
+    """Some expressions, and what is to be said of them."""
+    known = list(expressions)
+    row: list[Element] = []
+    for expression in known:
+        row += [*_row(expression), leaf("mo", ",")]
+    spoken = ", ".join(expression.pretty() for expression in known)
+    return Formula(
+        name, tuple(_pieces([*row[:-1], leaf("mtext", f": {words}")])), f"{spoken}: {words}"
+    )
+
+
 def opened_equation(left: Expr, right: Expr) -> tuple[Markup, ...]:
     """Pieces of left = right, which may break within long brackets and fractions as well."""
     row = [*_row(left), leaf("mo", "=", form="infix"), *_row(right)]

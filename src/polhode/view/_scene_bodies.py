@@ -130,7 +130,8 @@ def arrows_of(run: Trajectory, t: Array, sizes: Magnitudes) -> tuple[Arrow, ...]
 
     Components that only rounding has left are zero.
     """
-    system = equations_of(run).system
+    # as declared: contacts in their modes know nothing of the friction that limits their forces
+    system = run.system if isinstance(run.system, System) else equations_of(run).system
     bodies = list(system.bodies)
     found = [
         _arrow(

@@ -25,7 +25,7 @@ from polhode.derive import Equations, is_angle, slips_along, symbols_of
 from polhode.model import Slipping
 from polhode.simulate import Trajectory
 from polhode.view._magnitudes import Magnitudes, panels
-from polhode.view._mathml import Formula, equation, inline, typeset
+from polhode.view._mathml import Formula, equation, inline, listed, typeset
 from polhode.view._quantities import equations_of, largest, quantity, scale_for
 from polhode.view._scene import ModeSpan, Panel, PlotSeries, SceneEvent, SceneNumber
 
@@ -133,9 +133,8 @@ def _headed(
         for i, (left, right) in enumerate(rows):
             yield equation(heading if i == 0 else "", left, right)
         if names := undetermined.get(mode):
-            letters = ", ".join(Expr.generator(Symbol(name)).pretty() for name in names)
-            words = f"{letters}: left open by Newton's laws"
-            yield Formula("" if rows else heading, (), words)
+            letters = (Expr.generator(Symbol(name)) for name in names)
+            yield listed("" if rows else heading, letters, "left open by Newton’s laws")
 
 
 def _defined(used: Iterable[Expr], left: dict[Generator, Expr]) -> dict[Generator, Expr]:
