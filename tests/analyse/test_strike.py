@@ -81,7 +81,7 @@ def test_it_is_the_limit_of_a_short_force() -> None:
     changes = {s.published: value for s, value in blow.changes.items()}
     for name in names:
         assert run.final[name] == pytest.approx(number(changes[name]), rel=1e-4)
-    for name in ("F_x", "F_y", "G_x", "G_y"):
+    for name in ("F_x", "F_y", "G_x_2", "G_y_2"):
         mean = float(np.mean(run.evaluate(name, np.linspace(0, short, 3)))) * short
         assert mean == pytest.approx(number(blow.reactions[name]), rel=1e-4, abs=2e-5)
 
