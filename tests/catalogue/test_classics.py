@@ -107,6 +107,17 @@ def test_a_tippe_top_turns_over() -> None:
     assert theta[-1] > 2.4
 
 
+def test_a_block_rocks_as_housner_says() -> None:
+    """Each impact leaves 1 - 3/2 sin² α (Housner, Bull. Seism. Soc. Am. 53, 403, 1963)."""
+    known, impacts = values("rocking-block"), of_kind("rocking-block", "touches down")
+    kept = 1 - 1.5 * known["w"] ** 2 / (known["w"] ** 2 + known["h"] ** 2)
+    for impact in impacts[:20]:
+        before, after = impact.state_before["theta_dot"], impact.state_after["theta_dot"]
+        assert after == pytest.approx(kept * before, rel=1e-12)
+    assert run("rocking-block").mode == "rolling"
+    assert run("rocking-block").final["theta_dot"] == 0
+
+
 def test_eulers_disk_stops_at_a_finite_time() -> None:
     """3/2 m g a θ̇ = -μ m g a Ω with Ω² = 4 g/(a θ), while it is flat and slow to change."""
     known, motion = values("eulers-disk"), run("eulers-disk")

@@ -94,6 +94,7 @@ SYSTEMS = {
         ),
         name="on the Earth",
     ),
+    "impacts": ph.System(ph.Rolling(ball(), on=FLOOR, name="floor"), impacts="Moreau"),
     "resistance": ph.System(
         roll := ph.Rolling(ball(), on=FLOOR),
         ph.RollingResistance(roll, mu=mu, mu_static=2 * mu, viscous=1, force="Q"),

@@ -13,6 +13,7 @@ from polhode.catalogue._gyrocompass import GYROCOMPASS, MOTOR_DRIVEN
 from polhode.catalogue._gyroscope import GYROSCOPE, HELD, IN_VERTICAL_PLANE, UPRIGHT
 from polhode.catalogue._ladder import LADDER
 from polhode.catalogue._marble_on_turntable import MARBLE_ON_TURNTABLE, TILTED
+from polhode.catalogue._rocking_block import ROCKING_BLOCK
 from polhode.catalogue._tennis_racquet import TENNIS_RACQUET
 from polhode.catalogue._tippe_top import TIPPE_TOP
 
@@ -46,6 +47,7 @@ CLASSICS: dict[str, CatalogueEntry] = {
         ON_WEDGE,
         CYLINDER_IN_CYLINDER,
         LADDER,
+        ROCKING_BLOCK,
         TIPPE_TOP,
         EULERS_DISK,
         CUE_BALL,

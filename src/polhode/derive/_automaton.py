@@ -153,7 +153,6 @@ def guards_of(
     equations: Equations, touches: tuple[Touch, ...], phases: tuple[Phase, ...]
 ) -> Iterator[Guard]:
     """The guards of a mode, exact; accelerations and reactions occur in them as derived."""
-    open_ = set(equations.undetermined)
     for touch, phase in zip(touches, phases, strict=True):
         contact = touch.contact
         if isinstance(contact, Contact):
@@ -162,7 +161,8 @@ def guards_of(
             if not contact.is_beside:
                 yield Guard(contact, "touches down", touch.gap)
             continue
-        if open_.isdisjoint(_forces(contact)):
+        # asked of modes in which something touches alone: others may hold nothing together
+        if set(equations.undetermined).isdisjoint(_forces(contact)):
             yield from _guards_of_forces(equations, contact, phase)
         if touch.reserve:
             yield Guard(contact, "crosses the edge", touch.edge_distance)

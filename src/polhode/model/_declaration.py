@@ -173,14 +173,17 @@ def _body(**given: Any) -> Body:
 
 
 def _system_fields(system: System) -> dict[str, Any]:
-    """Its fields; without chosen speeds, as in documents written before there were any."""
+    """Its fields; without those left empty that documents have not always had."""
     found = _fields(system)
-    return found if system.speeds else {k: v for k, v in found.items() if k != "speeds"}
+    empty = {name for name in ("speeds", "impacts") if not found[name]}
+    return {name: value for name, value in found.items() if name not in empty}
 
 
 def _system(**given: Any) -> System:
     parts = (*given["bodies"], *given["elements"], *given["loads"])
     speeds = given.setdefault("speeds", ())
     chosen = {symbol.name: meaning for symbol, meaning in speeds}
-    made = System(*parts, name=given["name"], independent=given["independent"], speeds=chosen)
+    impacts = given.setdefault("impacts", "")
+    kept = given["independent"]
+    made = System(*parts, name=given["name"], independent=kept, speeds=chosen, impacts=impacts)
     return _confirmed(made, given)  # type: ignore[no-any-return]

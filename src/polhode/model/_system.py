@@ -19,6 +19,9 @@ from polhode.model._planes import Sheet
 
 Part = Body | Element | Load
 
+#: Laws of impacts at several contacts; without one they are refused.
+IMPACT_LAWS = ("", "Moreau")
+
 
 @dataclass(frozen=True, init=False)
 class System(Shown):
@@ -32,6 +35,9 @@ class System(Shown):
         speeds: speeds of your own, by name, as expressions that are linear in speeds and rates:
             velocities along the body, quasi-velocities, momenta. Equations are written in them;
             each takes the place of a speed in its expression.
+        impacts: the law of impacts that several contacts feel at once: "Moreau", Newton's
+            restitution and Coulomb's friction of the impulses at each. By default such impacts are
+            refused, since rigid bodies alone do not determine them.
 
     Raises:
         DeclarationError: for parts that do not fit together, or speeds that are no speeds.
@@ -43,6 +49,7 @@ class System(Shown):
     name: str
     independent: tuple[Symbol, ...]
     speeds: tuple[tuple[Symbol, Expr], ...]
+    impacts: str
 
     def __init__(
         self,
@@ -50,6 +57,7 @@ class System(Shown):
         name: str = "system",
         independent: Iterable[Expr] = (),
         speeds: Mapping[str | Expr, Expr] = MappingProxyType({}),
+        impacts: str = "",
     ) -> None:
         bodies = _bodies(parts)
         elements = tuple(part for part in parts if isinstance(part, Element))
@@ -68,6 +76,11 @@ class System(Shown):
                 advice="build all axes from the same Frame",
             )
         _refuse_alone(elements)
+        if impacts not in IMPACT_LAWS:
+            raise DeclarationError(
+                f"impacts={impacts!r}",
+                expected='"Moreau", or nothing, so that impacts at several contacts are refused',
+            )
         _refuse_unlisted(independent, speeds)
         kept = tuple(as_symbol(speed) for speed in independent)
         values = {
@@ -77,6 +90,7 @@ class System(Shown):
             "name": name,
             "independent": kept,
             "speeds": tuple(_speed(name, meaning) for name, meaning in speeds.items()),
+            "impacts": impacts,
         }
         for field, value in values.items():
             object.__setattr__(self, field, value)
@@ -205,27 +219,31 @@ def _refuse_same_names(kind: str, parts: Sequence[Part]) -> None:
 def with_elements(system: System, elements: dict[str, Element]) -> System:
     """The same system with other contacts or joints under some of the names."""
     changed = [elements.get(element.name, element) for element in system.elements]
-    kept = [Expr.generator(symbol) for symbol in system.independent]
-    parts: tuple[Part, ...] = (*system.bodies, *changed, *system.loads)
-    return System(*parts, name=system.name, independent=kept, speeds=_chosen(system))
+    return _again(system, (*system.bodies, *changed, *system.loads))
 
 
 def with_loads(system: System, *loads: Load) -> System:
     """The same system with further loads."""
-    kept = [Expr.generator(symbol) for symbol in system.independent]
-    parts: tuple[Part, ...] = (*system.bodies, *system.elements, *system.loads, *loads)
-    return System(*parts, name=system.name, independent=kept, speeds=_chosen(system))
-
-
-def _chosen(system: System) -> dict[str | Expr, Expr]:
-    """The speeds that a user chose, as they were given."""
-    return {symbol.name: meaning for symbol, meaning in system.speeds}
+    return _again(system, (*system.bodies, *system.elements, *system.loads, *loads))
 
 
 def with_independent(system: System, speeds: Iterable[Expr]) -> System:
     """The same system with other speeds to be kept as independent."""
-    parts: tuple[Part, ...] = (*system.bodies, *system.elements, *system.loads)
-    return System(*parts, name=system.name, independent=speeds, speeds=_chosen(system))
+    return _again(system, (*system.bodies, *system.elements, *system.loads), speeds)
+
+
+def _again(
+    system: System, parts: tuple[Part, ...], independent: Iterable[Expr] | None = None
+) -> System:
+    """A system of these parts, otherwise as declared."""
+    kept = [Expr.generator(symbol) for symbol in system.independent]
+    return System(
+        *parts,
+        name=system.name,
+        independent=kept if independent is None else independent,
+        speeds={symbol.name: meaning for symbol, meaning in system.speeds},
+        impacts=system.impacts,
+    )
 
 
 def with_friction(system: System, mu: ExprLike, mu_static: ExprLike | None = None) -> System:

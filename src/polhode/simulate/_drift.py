@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from polhode.algebra import Expr
+from polhode.algebra import Expr, SymbolKind
 from polhode.base import Shown
 from polhode.simulate._dynamics import WORK
 from polhode.simulate._segment import Segment
@@ -108,17 +108,28 @@ class _CheckedSegment:
     def relative_gap(self) -> float:
         """The largest gap of a loop, relative to the sum of the lengths in it.
 
-        Where these are next to nothing, as heights that stay zero, the other loops set the scale.
+        Where these are next to nothing, as heights that stay zero, the other loops set the scale;
+        where angles in it stay zero, as of a block that stands, what they would move by a radian.
         """
         gaps, sizes = [0.0], [0.0]
         for closure in self.segment.dynamics.equations.closures:
-            terms = np.sum(np.abs(self.values(_terms(closure))), axis=0)
             (values,) = self.values([closure])
             gaps.append(float(np.max(np.abs(values))))
-            sizes.append(float(np.max(terms)))
+            size, turned = (self._size(part) for part in (_terms(closure), _by_angles(closure)))
+            sizes.append(size if size > _NEGLIGIBLE * turned else turned)
         least = _NEGLIGIBLE * max(sizes)
         pairs = zip(gaps, sizes, strict=True)
         return max(_relative(gap, max(size, least)) for gap, size in pairs)
+
+    def _size(self, parts: list[Expr]) -> float:
+        """The largest sum of the sizes of some expressions."""
+        return float(np.max(np.sum(np.abs(self.values(parts)), axis=0), initial=0.0))
+
+
+def _by_angles(closure: Expr) -> list[Expr]:
+    """Slopes of a closure by the coordinates that it knows in functions alone: angles, mostly."""
+    alone = {s for s in closure.symbols() if s.kind is SymbolKind.COORDINATE}
+    return [closure.diff(s) for s in alone.difference(closure.generators)]
 
 
 def _energy(checked: Sequence[_CheckedSegment]) -> float:

@@ -135,7 +135,7 @@ class Trajectory(Shown):
 
     def at(self, t: float | Array) -> dict[str, Array]:
         """Coordinates, speeds and rates at one or more times, by name; shaped like `t`."""
-        return self.table(self._states, t)
+        return self.table(self.states, t)
 
     def __getitem__(self, name: str | Symbol | Expr) -> Array:
         """A quantity at the sample times `t`, shape (samples,)."""
@@ -171,8 +171,13 @@ class Trajectory(Shown):
 
     @cached_property
     def final(self) -> dict[str, Any]:
-        """Everything at the end of the motion, by name, and the mode it ends in."""
-        names = (*self._states, *self.reactions, "energy")
+        """Everything at the end of the motion, by name, and the mode it ends in.
+
+        Without the reactions that Newton's laws leave open there.
+        """
+        last = len(self.segments) - 1
+        known = (name for name in self.reactions if not self._is_undetermined(name, last))
+        names = (*self.states, *known, "energy")
         values = self.table(names, self.duration)
         scalar = self._numbers.scalar
         return {**{name: scalar(value) for name, value in values.items()}, "mode": self.mode}
@@ -191,7 +196,7 @@ class Trajectory(Shown):
         Raises:
             StoreError: where the file cannot be written.
         """
-        chosen = list(names) if names is not None else [*self._states, *self.reactions, "energy"]
+        chosen = list(names) if names is not None else [*self.states, *self.reactions, "energy"]
         write_csv(Path(path), {"t": self.t, **self.table(chosen)}, self._origin)
 
     def to_xarray(self, names: Iterable[str] | None = None) -> xarray.Dataset:
@@ -251,7 +256,7 @@ class Trajectory(Shown):
         }
 
     @cached_property
-    def _states(self) -> tuple[str, ...]:
+    def states(self) -> tuple[str, ...]:
         """Coordinates, speeds and rates, of all modes."""
         found: dict[str, None] = {}
         for segment in self.segments:
@@ -329,8 +334,7 @@ def samples_of(run: Trajectory, names: Iterable[str] | None = None) -> dict[str,
             work and the invariants watched.
     """
     if names is None:
-        states = (name for name in run.final if name not in ("energy", "mode"))
-        names = dict.fromkeys((*states, *_WORDS, *run.invariants))
+        names = dict.fromkeys((*run.states, *run.reactions, *_WORDS, *run.invariants))
     table = run.table(names)
     return {name: Sampled(unit_of(run, name), values) for name, values in table.items()}
 

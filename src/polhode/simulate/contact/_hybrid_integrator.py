@@ -151,6 +151,7 @@ class HybridIntegrator:
         contacts = self._hybrid.automaton.contacts
         given = [c.restitution for c in contacts if isinstance(c, Contact)]
         rebounds = any(self._hybrid.value(restitution) > 0 for restitution in given)
+        rebounds = rebounds or bool(self._hybrid.declared.system.impacts)  # a block that rocks
         return bool(passed <= instant) or not rebounds
 
     def _undecided(self, time: float, modes: set[str]) -> NumericError:

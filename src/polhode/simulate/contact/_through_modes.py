@@ -39,10 +39,11 @@ _LEAST, _MOST = 1e-9, 1e9
 def can_be_followed(modes: Automaton) -> bool:
     """Whether changes of contact are followed; otherwise all contacts stay as declared.
 
-    They stay where no contact has friction and Newton's laws do not determine all contact forces.
+    They stay where no contact has friction and Newton's laws do not determine all contact forces,
+    unless a law of impacts says that they are to be followed.
     """
     rubs = any(isinstance(contact, DryFriction) for contact in modes.contacts)
-    return rubs or not modes.together.undetermined
+    return rubs or bool(modes.system.impacts) or not modes.together.undetermined
 
 
 def check_numbers(hybrid: HybridSystem) -> None:

@@ -21,16 +21,18 @@ from polhode.simulate.contact._contact_kinematics import (
 )
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._impact import (
+    STICKS,
     Impact,
     Roughness,
     coulomb_impact,
     rough_impact,
     smooth_impact,
 )
+from polhode.simulate.contact._joint_impact import ImpactLaw, joint_impact
 from polhode.simulate.contact._mode_state import ModeState, beyond, directions_of
 from polhode.simulate.contact._select_mode import ContactStatus, select_mode
 from polhode.simulate.integrate._arrays import Array
-from polhode.simulate.integrate._number_types import NumberType
+from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 
 # A bouncing contact takes infinitely many hops in a finite time: they end, and the contact stays
 # closed, when the rebound is this much slower than its hardest landing (its energy is then below
@@ -155,12 +157,15 @@ class Transitions:
             return affects(k, _NORMAL) or (sticks and affects(k, _TANGENTIAL))
 
         if affected := [contacts[k].name for k in (*touching, *meeting) if feels(k)]:
+            if hybrid.declared.system.impacts:
+                return self._land_together(before, shared, [i, *touching, *meeting])
             raise NumericError(
                 f"{contact.name} lands at t = {float(shared.time):.9g} s, and the contact "
                 f"{affected[0]} feels the impact",
                 expected="one contact of connected bodies at a time: impacts at several contacts "
-                "are not determined",
-                advice="end the motion before that time",
+                "are not determined by rigid bodies alone",
+                advice='declare a law, System(..., impacts="Moreau"), or end the motion before '
+                "that time",
             )
         sticking -= {k for k in sticking if affects(k, _TANGENTIAL)}
         point = points[i]
@@ -193,6 +198,55 @@ class Transitions:
         if impact.sticks:
             closed = replace(closed, stuck=sticking | {i})
         return "touches down", select_mode(hybrid, after, closed)
+
+    def _land_together(
+        self, before: ModeState, shared: State, taking: list[int]
+    ) -> tuple[str, ModeState]:
+        """An impact that several contacts feel, the first of which lands."""
+        hybrid, i = self._hybrid, taking[0]
+        where = f"an impact at several contacts at t = {float(shared.time):.9g} s"
+        if hybrid.numbers is not DOUBLES:
+            raise NumericError(
+                where, expected="double precision", advice="leave out precision for this motion"
+            )
+        for k in taking:
+            self._refuse_impulsive_loads(k, shared.time)
+        points = hybrid.touching.at(shared, beyond(before.phases))
+        jacobian = np.vstack([points[k].jacobian for k in taking])
+        change = np.linalg.solve(hybrid.separated.mass(shared), jacobian.T)
+        velocities = np.array([points[k].velocity for k in taking])
+        laws = [self._law(hybrid.automaton.contacts[k]) for k in taking]
+        impulses, after = joint_impact(jacobian @ change, velocities, laws, where)
+        supports = np.array([points[k].support for k in taking])
+        work = float(np.sum(impulses * (supports + (velocities + after) / 2)))
+        left = shared.with_impulse(change @ impulses.ravel(), work)
+        self._hardest[i] = max(self._hardest.get(i, 0.0), -float(velocities[0, 2]))
+        # What leaves more slowly than rounding of the hardest landing stays.
+        still = _REBOUND * max(self._hardest.values())
+        opened = {k for k, v in zip(taking, after[:, 2], strict=True) if v > still}
+        stuck = {
+            k
+            for k, law, v in zip(taking, laws, after, strict=True)
+            if k not in opened and law.friction and np.hypot(*v[:2]) <= STICKS * points[i].scale
+        }
+        flying = {k for k, phase in enumerate(before.phases) if phase.flies}
+        separated = frozenset.union(
+            frozenset(flying - {j for k in taking for j in hybrid.closing_with(k)}),
+            *(hybrid.closing_with(k) for k in opened),
+        )
+        known = ContactStatus(separated, frozenset(stuck), beyond=beyond(before.phases))
+        return "bounces" if i in opened else "touches down", select_mode(hybrid, left, known)
+
+    def _law(self, contact: ContactLaw) -> ImpactLaw:
+        """What a contact does in an impact at several."""
+        assert isinstance(contact, Contact)
+        value, along, friction = self._hybrid.value, 0.0, 0.0
+        if isinstance(contact, Coulomb):
+            friction = float(value(contact.mu))
+        if isinstance(contact, Rolling):
+            friction = np.inf
+            along = 0.0 if contact.tangential is None else float(value(contact.tangential))
+        return ImpactLaw((float(value(contact.restitution)), along), friction)
 
     def _slow(self, point: ContactKinematics) -> Any:
         """Normal velocity of a contact that counts as none, m/s."""
