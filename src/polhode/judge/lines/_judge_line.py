@@ -32,7 +32,7 @@ from polhode.judge.meaning._relations import BoundRelation
 from polhode.judge.text._cues import Role
 from polhode.judge.text._in_force import Chosen, is_number, varies
 from polhode.judge.text._text_line import TIME_LETTER, TextLine
-from polhode.model import Coulomb
+from polhode.model import DryFriction
 
 #: Words right before a letter that stands for a period or a frequency of small oscillations.
 _CALLED = re.compile(r"\b(period|frequency)(?: of (?:the )?small oscillations)?(?: is)?\W*\Z", re.I)
@@ -291,7 +291,7 @@ def _unread(line: TextLine, found: OpenVerdict, equations: Equations) -> str:
             r"'for large $\omega_1$'"
         )
     if TIME_LETTER in line.letters and any(
-        isinstance(c, Coulomb) for c in equations.system.contacts
+        isinstance(c, DryFriction) for c in equations.system.contact_laws
     ):
         return "it is of the time for which a body slips in one direction, which was not decided"
     defined = line.in_force.defined

@@ -26,7 +26,7 @@ from polhode.judge.latex._tree import (
 from polhode.judge.lines._judged_line import JudgedLine
 from polhode.judge.meaning._mechanics import Mechanics
 from polhode.judge.text._text_line import TIME_LETTER
-from polhode.model import Coulomb
+from polhode.model import DryFriction
 
 _SAID = "Lagrange's equation, which holds for the Lagrangian of the text"
 _LAGRANGIANS = (Name("L"), Name("cal L"))
@@ -37,7 +37,7 @@ def as_lagranges_equation(judged: JudgedLine, equations: Equations) -> JudgedLin
     relation = judged.line.relation.relation
     if judged.verdict.holds or relation is None or not is_lagranges_equation(relation):
         return judged
-    is_ideal = not any(isinstance(c, Coulomb) for c in equations.system.contacts)
+    is_ideal = not any(isinstance(c, DryFriction) for c in equations.system.contact_laws)
     if not is_ideal or Mechanics(equations).has_other_loads:
         return judged
     return replace(judged, judgement=OpenVerdict(Verdict(Answer.HOLDS, "motion", _SAID)), needs="")

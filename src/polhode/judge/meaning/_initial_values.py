@@ -27,7 +27,7 @@ from polhode.judge.meaning._derived_quantities import (
 )
 from polhode.judge.meaning._meaning import BindingError
 from polhode.judge.meaning._mechanics import Mechanics, by_constraints, on_constraints
-from polhode.model import Coulomb
+from polhode.model import DryFriction
 
 _MARK = "_0"
 
@@ -234,7 +234,7 @@ def _conserved(mechanics: Mechanics) -> Iterator[Expr]:
     The energy alone where a body rolls.
     """
     equations = mechanics.equations
-    rubs = any(isinstance(element, Coulomb) for element in equations.system.elements)
+    rubs = any(isinstance(element, DryFriction) for element in equations.system.elements)
     momenta: list[Expr] = []
     try:
         space, whole = phase_space(mechanics), hamiltonian(mechanics)

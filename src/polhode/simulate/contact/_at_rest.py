@@ -32,6 +32,9 @@ def rests(hybrid: HybridSystem, entry: ModeState) -> bool | None:
     expressions = list(_balances(mode.mode))
     if np.any(np.asarray(entry.speeds) != 0) or any(map(_changes, expressions)):
         return None
+    rates = [Expr.generator(s.derivative()) for s in mode.mode.equations.speeds]
+    if np.any(mode.function(rates)(entry.state, entry.shared.time, ()) != 0):
+        return None
     table = mode.function(expressions)(entry.state, entry.shared.time, ())
     names = [line.name for line in mode.mode.equations.lines]
     table = np.asarray(table, dtype=float).reshape(-1, 1 + len(names))
