@@ -54,8 +54,6 @@ class Touch:
         gap: height of the lowest point of the body above the support, m.
         closing: its rate, m/s.
         slip: velocity of that point along the support, m/s, or what the couple opposes.
-        support: velocity of the support there, along the slip and the normal, in inertial space;
-            zero for a support that another body carries, which does work on it too.
     """
 
     contact: ContactLaw
@@ -64,7 +62,6 @@ class Touch:
     gap: Expr
     closing: Expr
     slip: tuple[Expr, Expr]
-    support: tuple[Expr, Expr, Expr]
 
     @property
     def expressions(self) -> tuple[Expr, ...]:
@@ -83,8 +80,6 @@ def touch_of(equations: Equations, declared: ContactLaw, phase: Phase) -> Touch:
     pressing, sliding = contact.pressing(motion.places), contact.sliding(motion.places)
     along, across = (*slips_along(motion, sliding), ZERO)[:2]
     (closing,) = slips_along(motion, (pressing,))
-    moving, passing = (*_prescribed(motion, sliding), ZERO)[:2]
-    (rising,) = _prescribed(motion, (pressing,))
     return Touch(
         contact,
         reserve,
@@ -92,7 +87,6 @@ def touch_of(equations: Equations, declared: ContactLaw, phase: Phase) -> Touch:
         contact.gap(motion.places),
         closing,
         (along, across),
-        (moving, passing, rising),
     )
 
 
@@ -101,11 +95,18 @@ def slips_along(motion: Kinematics, restraints: Iterable[Restraint]) -> list[Exp
     return [motion.slip(restraint).dot(restraint.direction) for restraint in restraints]
 
 
-def _prescribed(motion: Kinematics, restraints: Iterable[Restraint]) -> Iterator[Expr]:
-    """Velocities that restraints prescribe, along their directions, m/s."""
-    for restraint in restraints:
-        along = restraint.direction
-        yield motion.resolve(restraint.velocity.express(along.triad)).dot(along)
+def velocities_of_support(motion: Kinematics, contact: ContactLaw) -> tuple[Expr, Expr, Expr]:
+    """Velocity of the support at a contact, along the slip and the normal, in inertial space, m/s.
+
+    Zero for a support that another body carries: the contact does work on both.
+    """
+
+    def along(restraint: Restraint) -> Expr:
+        direction = restraint.direction
+        return motion.resolve(restraint.velocity.express(direction.triad)).dot(direction)
+
+    first, second = (*map(along, contact.sliding(motion.places)), ZERO)[:2]
+    return first, second, along(contact.pressing(motion.places))
 
 
 def height_of(equations: Equations, contact: Contact) -> Expr:

@@ -1,5 +1,7 @@
 """Impacts that several contacts feel, by the law of Moreau: rocking blocks, a ball in a groove."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -64,10 +66,15 @@ def swing(angle: float) -> float:
     return quad(slowness, 0, np.pi / 2, epsabs=1e-14, epsrel=1e-12)[0]
 
 
+@cache
+def sticking() -> ph.Trajectory:
+    return rocking(block())
+
+
 def test_a_block_rocks_to_rest_as_housner_says() -> None:
     """Each impact leaves 1 - 3/2 sin² α of the angular velocity (Housner, Bull. Seism. Soc. Am.
     53, 403, 1963), and so its square of the energy over that of the block upright."""
-    run = rocking(block())
+    run = sticking()
     kept = 1 - 1.5 * np.sin(SLENDER) ** 2
     impacts = [event for event in run.events if event.kind == "touches down"]
     ratios = [i.state_after["q_dot"] / i.state_before["q_dot"] for i in impacts[:200]]
@@ -87,8 +94,8 @@ def test_a_block_rocks_to_rest_as_housner_says() -> None:
 
 
 def test_with_friction_enough_not_to_slip_it_rocks_alike() -> None:
-    sticking, rubbing = rocking(block()), rocking(block(mu=mu), mu=0.8)
-    assert rubbing.events[-2].time == pytest.approx(sticking.events[-2].time, rel=1e-12)
+    rubbing = rocking(block(mu=mu), mu=0.8)
+    assert rubbing.events[-2].time == pytest.approx(sticking().events[-2].time, rel=1e-12)
 
 
 def test_with_little_friction_it_slips_and_loses_energy() -> None:
@@ -140,7 +147,7 @@ def test_a_ball_that_falls_into_a_groove_hits_both_sides(restitution: float) -> 
 
 @given(
     seed=st.integers(0, 10**6),
-    count=st.integers(1, 4),
+    count=st.integers(1, 3),
     restitution=st.floats(0, 0.9),
     friction=st.sampled_from([0.0, 0.1, 0.4, np.inf]),
 )
@@ -149,7 +156,7 @@ def test_impulses_obey_both_laws(
 ) -> None:
     rng = np.random.default_rng(seed)
     jacobian = rng.normal(size=(3 * count, 3 * count + 2))
-    inverse_mass = jacobian @ jacobian.T
+    inverse_mass = jacobian @ jacobian.T + np.eye(3 * count)
     before = rng.normal(size=(count, 3))
     laws = [ImpactLaw((restitution, 0.0), friction)] * count
     try:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from polhode.algebra import Expr, linear_parts
-from polhode.derive import Automaton, Mode
+from polhode.derive import Automaton, Mode, velocities_of_support
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 
@@ -137,7 +137,7 @@ def kinematic_expressions(mode: Mode) -> list[Expr]:
         *(t.gap for t in mode.touches),
         *(t.reserve for t in mode.touches),
         *(t.reserve.chain(motion.rate) for t in mode.touches),
-        *(velocity for t in mode.touches for velocity in t.support),
+        *(v for t in mode.touches for v in velocities_of_support(motion, t.contact)),
         *positions,
         *(rest for _, rest in parts),
         *(c for row, _ in parts for c in row),

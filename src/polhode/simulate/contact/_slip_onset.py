@@ -27,7 +27,7 @@ from polhode.simulate._segment import TrajectoryPiece
 from polhode.simulate.contact._auxiliary_states import slip_symbols
 from polhode.simulate.contact._hybrid_system import CompiledMode
 from polhode.simulate.contact._mode_state import ModeState
-from polhode.simulate.contact._select_mode import rates_along
+from polhode.simulate.contact._onset_directions import rates_along
 from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._driver import SegmentSolution
 from polhode.simulate.integrate._stop_criteria import Stop
