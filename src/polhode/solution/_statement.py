@@ -14,6 +14,7 @@ from polhode.model import (
     Coulomb,
     CurvedSupport,
     Damper,
+    DrillingFriction,
     Element,
     Ellipsoidal,
     Force,
@@ -33,6 +34,7 @@ from polhode.model import (
     Rack,
     Rim,
     Rolling,
+    RollingResistance,
     Rope,
     Round,
     Screw,
@@ -285,6 +287,16 @@ def _coupled(setting: Setting, element: Element) -> str:
             return (
                 f"{name} rolls along ${line}$ on the line through its point at {at} from the "
                 f"centre of mass, like a pinion on {rack} (“{element.name}”)."
+            )
+        case RollingResistance():
+            return (
+                f"{name} rolls against a resistance of {inline(element.mu)} times the normal "
+                "force, which opposes the travel of the point of contact along its surface."
+            )
+        case DrillingFriction():
+            return (
+                f"A couple of {inline(element.mu)} times the normal force opposes the spinning of "
+                f"{name[0].lower()}{name[1:]} about the normal."
             )
         case Screw():
             advance = f"by {inline(element.pitch)} in every turn"

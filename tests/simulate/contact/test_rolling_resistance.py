@@ -229,3 +229,9 @@ def test_its_lines_are_checked() -> None:
     right = r"7\dot v_x = -5 c g \frac{v_x}{\sqrt{v_x^2+v_y^2}}"
     assert ph.check(right, equations).answer.value == "holds"
     assert ph.check(right.replace("5 c", "3 c"), equations).answer.value == "fails"
+
+
+def test_exercises_say_what_opposes_the_rolling() -> None:
+    words = str(ph.exercise(ON_TABLE, 1).statement)
+    assert "rolls against a resistance" in words
+    assert "opposes the spinning of the ball" in words
