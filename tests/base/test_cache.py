@@ -79,7 +79,7 @@ def test_what_was_written_is_read():
 )
 def test_a_damaged_entry_is_none_and_is_replaced(damage):
     cache.write("compiled", "one", b"Content")
-    path = cache.folder("compiled") / "one"
+    (path,) = cache.folder("compiled").rglob("one")
     path.write_bytes(damage(path.read_bytes()))
     assert cache.read("compiled", "one") is None
     cache.write("compiled", "one", b"Content")
@@ -95,11 +95,30 @@ def test_nothing_is_kept_where_nothing_can_be_written(tmp_path, monkeypatch):
 
 def test_entries_that_were_not_read_for_longest_are_dropped(monkeypatch):
     monkeypatch.setattr(cache, "MOST", 1000)
-    folder = cache.folder("compiled")
+    monkeypatch.setattr(cache, "SHELVES", 1)
+    folder = cache.folder("compiled") / "00"
     for i, key in enumerate(("old", "read since", "new")):
         cache.write("compiled", key, bytes(250))
         os.utime(folder / key, (i, i))
     cache.read("compiled", "old")
     cache.write("compiled", "last", bytes(150))
     names = {path.name for path in folder.iterdir()}
-    assert names == {"CACHEDIR.TAG", "old", "new", "last"}
+    assert names == {"old", "new", "last"}
+
+
+def test_a_write_looks_at_a_small_part_of_a_large_folder(monkeypatch):
+    """A full cache made every write as slow as a look at all its entries."""
+    looked = []
+    for i in range(200):
+        cache.write("compiled", f"key {i}", b"entry")
+    monkeypatch.setattr(cache, "_drop_oldest", lambda kept: looked.extend(kept.iterdir()))
+    cache.write("compiled", "another", b"entry")
+    assert 0 < len(looked) < 20
+
+
+def test_entries_of_the_layout_before_shelves_are_removed():
+    loose = cache.folder("compiled") / "left over"
+    loose.write_bytes(b"entry")
+    cache.write("compiled", "key", b"entry")
+    assert not loose.exists()
+    assert cache.read("compiled", "key") == b"entry"

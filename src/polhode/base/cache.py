@@ -16,6 +16,9 @@ LIMIT = 2**30
 MOST = 2**27
 """Largest size of a folder with entries of polhode's own, in bytes."""
 
+SHELVES = 64
+"""Folders within such a folder: to keep it small, a write looks at one of them alone."""
+
 _TAG_NAME = "CACHEDIR.TAG"
 # bford.info/cachedir: backup programs skip a directory with this file
 _TAG = b"Signature: 8a477f597d28d172789f06886806bc55\n# Made by polhode; safe to delete.\n"
@@ -59,7 +62,7 @@ def folder(name: str) -> Path:
 
 def read(name: str, key: str) -> bytes | None:
     """What was kept under a key in a folder; None where nothing is, or where it is damaged."""
-    path = directory() / name / key
+    path = directory() / name / _shelf(key) / key
     try:
         digest, content = path.read_bytes().split(b"\n", 1)
         os.utime(path)  # what has not been read for longest is dropped first
@@ -74,13 +77,27 @@ def write(name: str, key: str, content: bytes) -> None:
     What has not been read for longest is dropped where the folder outgrows `MOST`.
     """
     with suppress(OSError, StoreError):
-        kept = folder(name)
+        kept = folder(name) / _shelf(key)
+        if not kept.exists():
+            kept.mkdir(exist_ok=True)
+            _drop_loose(kept.parent)
         write_whole(kept / key, _digest(content) + b"\n" + content)
         _drop_oldest(kept)
 
 
 def _digest(content: bytes) -> bytes:
     return blake2b(content, digest_size=16).hexdigest().encode()
+
+
+def _shelf(key: str) -> str:
+    return f"{int(_digest(key.encode())[:8], 16) % SHELVES:02x}"
+
+
+def _drop_loose(kept: Path) -> None:
+    """Remove entries from before there were shelves."""
+    for path in kept.iterdir():
+        if path.is_file() and path.name != _TAG_NAME:
+            path.unlink(missing_ok=True)
 
 
 def _drop_oldest(kept: Path) -> None:
@@ -91,11 +108,10 @@ def _drop_oldest(kept: Path) -> None:
             entries.append((found.st_mtime, found.st_size, path))
     size = sum(bytes_ for _, bytes_, _ in entries)
     for _, bytes_, path in sorted(entries):
-        if size <= MOST:
+        if size <= MOST / SHELVES:
             return
-        if path.name != _TAG_NAME:
-            path.unlink(missing_ok=True)
-            size -= bytes_
+        path.unlink(missing_ok=True)
+        size -= bytes_
 
 
 def clear() -> int:
