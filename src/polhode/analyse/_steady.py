@@ -479,7 +479,7 @@ def _branches(relation: Expr, system: Reduced) -> tuple[Branch, ...]:
 def _is_quadratic(relation: Expr, symbol: Symbol) -> bool:
     """Whether a relation is a polynomial in a speed, at most quadratic.
 
-    That of friction is none: it has the slip speed below a line, or in a root.
+    A relation with friction is not: the slip speed occurs in its denominator, or in a root.
     """
     within = (Expr.generator(g) for g in relation.generators if g != symbol)
     if symbol in relation.denominator.symbols() or any(symbol in e.symbols() for e in within):

@@ -163,7 +163,7 @@ def guards_of(
                 yield Guard(contact, "touches down", touch.gap)
             continue
         # asked of modes in which something touches alone: others may hold nothing together
-        if set(equations.undetermined).isdisjoint(_forces(contact)):
+        if set(equations.undetermined).isdisjoint(contact.components):
             yield from _guards_of_forces(equations, contact, phase)
         if touch.reserve:
             yield Guard(contact, "crosses the edge", touch.edge_distance)
@@ -183,12 +183,6 @@ def _guards_of_place(equations: Equations, contact: Contact) -> Iterator[Guard]:
             yield Guard(contact, limit.kind, limit.positive)
 
 
-def _forces(contact: ContactLaw) -> list[str]:
-    """Names of its components: along the normal, then along the support."""
-    along = (contact.component(label) for label in contact.on.tangents)
-    return [contact.component(contact.on.normal), *filter(None, along)]
-
-
 def _guards_of_forces(equations: Equations, contact: ContactLaw, phase: Phase) -> Iterator[Guard]:
     """Where a contact opens, or what keeps it from slipping is at its limit."""
     if not contact.is_beside:
@@ -197,7 +191,7 @@ def _guards_of_forces(equations: Equations, contact: ContactLaw, phase: Phase) -
     if phase.rolls and isinstance(contact, DryFriction):
         # (μₛ N)² - |F|², N²: squares keep the guard free of roots, and smooth where F = 0
         # of long forces not multiplied out, which would make thousands of terms of hundreds
-        parts = (equations.components[name] for name in _forces(contact))
+        parts = (equations.components[name] for name in contact.components)
         pressed, *rubbed = (p if length(p) <= _LONG else named(p) for p in parts)
         most = (contact.mu_static * pressed) ** 2
         yield Guard(contact, "slips", most - sum((f * f for f in rubbed), ZERO))
@@ -235,7 +229,7 @@ class Mode:
         return tuple(
             touch.contact
             for touch, phase in zip(self.touches, self.phases, strict=True)
-            if not phase.flies and not loose.isdisjoint(_forces(touch.contact))
+            if not phase.flies and not loose.isdisjoint(touch.contact.components)
         )
 
     def phase(self, contact: ContactLaw) -> Phase:

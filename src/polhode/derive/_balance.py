@@ -76,11 +76,6 @@ class ReactionColumn:
         return self.restraint.name
 
     @property
-    def has_friction(self) -> bool:
-        """Whether sliding friction goes with the normal force."""
-        return self.direction != self.restraint.direction
-
-    @property
     def does_work(self) -> bool:
         """Whether forces that may do work go with the reaction: friction, or loads."""
         return bool(self.friction or self.loads)

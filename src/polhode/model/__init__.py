@@ -14,7 +14,6 @@ from polhode.model._contact_law import FRICTIONLESS as FRICTIONLESS
 from polhode.model._contact_law import HELD as HELD
 from polhode.model._contact_law import ROLLING as ROLLING
 from polhode.model._contact_law import SLIDING as SLIDING
-from polhode.model._contact_law import TURNING as TURNING
 from polhode.model._contact_law import ContactLaw as ContactLaw
 from polhode.model._contact_law import DryFriction as DryFriction
 from polhode.model._contact_law import Phase as Phase

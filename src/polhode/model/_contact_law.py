@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, ExprLike, Symbol, SymbolKind, exp, is_positive
 from polhode.base import DeclarationError
 from polhode.model._body import Body
-from polhode.model._declared import not_negative, positive
+from polhode.model._declared import Size, not_negative, positive
 from polhode.model._element import Element, Friction, Places, Restraint
 from polhode.model._support import Support
 
@@ -80,14 +80,15 @@ class ContactLaw(Element):
         """Whether it acts beside the force of a contact, with which it closes and opens."""
         return self.pressed_by != self.name
 
-    @property
-    @abstractmethod
-    def may_fall_flat(self) -> bool:
-        """Whether the centre of mass may come down to the support while the body touches it."""
-
     @abstractmethod
     def component(self, label: str) -> str:
-        """Name of the reaction's component along a direction of the support."""
+        """Name of the reaction's component along a direction of the support; empty for none."""
+
+    @property
+    def components(self) -> tuple[str, ...]:
+        """Names of all components: along the normal, then along the support."""
+        along = map(self.component, self.on.tangents)
+        return (self.component(self.on.normal), *filter(None, along))
 
     @abstractmethod
     def gap(self, places: Places) -> Expr:
@@ -136,6 +137,12 @@ class DryFriction(ContactLaw):
         slow = None if stribeck is None else positive(stribeck, f"Stribeck speed of {self.name!r}")
         rise = not_negative(viscous, f"viscous part of the {what}")
         self._set(mu=kinetic, mu_static=static, viscous=rise, stribeck=slow)
+
+    @property
+    def sizes(self) -> Iterator[Size]:
+        yield Size(f"viscous part of the friction of {self.name!r}", self.viscous, may_vanish=True)
+        if self.stribeck is not None:
+            yield Size(f"Stribeck speed of {self.name!r}", self.stribeck)
 
     def coefficient(self, slip: Expr, slowness: Expr) -> Expr:
         """Friction over normal force while it slides.

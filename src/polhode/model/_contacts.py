@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, Self
@@ -20,7 +20,7 @@ from polhode.model._contact_law import (
     Phase,
     Slipping,
 )
-from polhode.model._declared import Size, not_negative, of_type
+from polhode.model._declared import not_negative, of_type
 from polhode.model._element import Element, Limit, Places, Restraint
 from polhode.model._support import MISFIT, NO_FOOT, Support
 from polhode.model._surface import LowerEdge, MaterialPoint, Round, Surface
@@ -86,7 +86,7 @@ class Contact(ContactLaw):
             restitution=restitution_of(restitution, called),
             at=at,
         )
-        _ = self.surface  # refused where there is none
+        _ = self.surface  # raises for a body without a surface
 
     @property
     def surface(self) -> Surface:
@@ -299,12 +299,6 @@ class Coulomb(Contact, DryFriction):
     ) -> None:
         super().__init__(body, on=on, name=name, force=force, restitution=restitution, at=at)
         self._set_coefficients(mu, mu_static, viscous, stribeck)
-
-    @property
-    def sizes(self) -> Iterator[Size]:
-        yield Size(f"viscous part of the friction of {self.name!r}", self.viscous, may_vanish=True)
-        if self.stribeck is not None:
-            yield Size(f"Stribeck speed of {self.name!r}", self.stribeck)
 
     def _touching(self) -> dict[Phase, Element]:
         # frictionless: at zero slip with no friction force the direction of sliding is undefined

@@ -8,7 +8,7 @@ Wouw, Stability and Convergence of Mechanical Systems with Unilateral Constraint
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -25,7 +25,7 @@ from polhode.model._contact_law import (
     Slipping,
 )
 from polhode.model._contacts import Contact
-from polhode.model._declared import Size, of_type
+from polhode.model._declared import of_type
 from polhode.model._element import Element, Friction, Places, Restraint
 from polhode.model._support import Support
 
@@ -81,12 +81,6 @@ class FrictionCouple(DryFriction):
         """Vectors k, one or two, of which ω·k is what it opposes: the components' couples, m."""
 
     @property
-    def sizes(self) -> Iterator[Size]:
-        yield Size(f"viscous part of {self.name!r}", self.viscous, may_vanish=True)
-        if self.stribeck is not None:
-            yield Size(f"Stribeck speed of {self.name!r}", self.stribeck)
-
-    @property
     def body(self) -> Body:  # type: ignore[override]
         return self.of.body
 
@@ -105,10 +99,6 @@ class FrictionCouple(DryFriction):
     @property
     def pressed_by(self) -> str:
         return self.of.name
-
-    @property
-    def may_fall_flat(self) -> bool:
-        return False
 
     def component(self, label: str) -> str:
         if label == self.on.normal:
@@ -200,8 +190,8 @@ class DrillingFriction(FrictionCouple):
 
 
 @dataclass(frozen=True)
-class Held(Element):
-    """Nothing rolls, or spins: the couple is what that needs."""
+class _InPhase(Element):
+    """A couple in one of its phases."""
 
     law: FrictionCouple
 
@@ -212,46 +202,26 @@ class Held(Element):
     @property
     def bodies(self) -> tuple[Body, ...]:
         return self.law.bodies
+
+    def restraints(self, places: Places) -> tuple[Restraint, ...]:
+        return ()
+
+
+class Held(_InPhase):
+    """Nothing rolls, or spins: the couple is what that needs."""
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         return self.law.sliding(places)
 
 
-@dataclass(frozen=True)
-class NoCouple(Element):
+class NoCouple(_InPhase):
     """No couple: off the support, or before it is known which way a body turns."""
 
-    law: FrictionCouple
-
-    @property
-    def name(self) -> str:  # type: ignore[override]
-        return self.law.name
-
-    @property
-    def bodies(self) -> tuple[Body, ...]:
-        return self.law.bodies
-
-    def restraints(self, places: Places) -> tuple[Restraint, ...]:
-        return ()
-
     def absent(self) -> tuple[str, ...]:
-        names = map(self.law.component, self.law.on.tangents)
-        return tuple(name for name in names if name)
+        return self.law.components[1:]
 
 
-@dataclass(frozen=True)
-class Turning(Slipping):
+class Turning(_InPhase, Slipping):
     """It opposes a motion in a direction given by symbols."""
 
     law: FrictionCouple
-
-    @property
-    def name(self) -> str:  # type: ignore[override]
-        return self.law.name
-
-    @property
-    def bodies(self) -> tuple[Body, ...]:
-        return self.law.bodies
-
-    def restraints(self, places: Places) -> tuple[Restraint, ...]:
-        return ()

@@ -269,9 +269,7 @@ class Ellipsoidal(Surface):
 
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
         # on Σ x²/h² = 1 the normal is along x/h²: the lowest point is -h² n/√(Σ h² n²)
-        upright = _along(axes, normal).components
-        stretched = [h * h * n for h, n in zip(self.half_axes, upright, strict=True)]
-        support = sum((s * n for s, n in zip(stretched, upright, strict=True)), ZERO)
+        stretched, support = self._stretched(_along(axes, normal))
         if not support:
             raise _lies_flat("an ellipsoid without thickness")
         height = principal_root(_brief(support))
@@ -284,11 +282,8 @@ class Ellipsoidal(Surface):
         # arm = c - h² n/H with H² = Σ h² n²: where n changes by δ = n × ω, it changes by D δ with
         # the symmetric D = -h²/H + (h² n)(h² n)ᵀ/H³, so that k = (D t) × n
         upright = _along(axes, normal)
-        squares = [h * h for h in self.half_axes]
-        stretched = [s * n for s, n in zip(squares, upright.components, strict=True)]
-        support = _brief(
-            sum((s * n for s, n in zip(stretched, upright.components, strict=True)), ZERO)
-        )
+        stretched, squared = self._stretched(upright)
+        squares, support = [h * h for h in self.half_axes], _brief(squared)
         height, found = principal_root(support), list[Vector]()
         for tangent in tangents:
             along = tangent.express(axes).components
@@ -300,6 +295,12 @@ class Ellipsoidal(Surface):
             first, second, third = changed
             found.append(Vector((first, second, third), axes).cross(upright))
         return tuple(found)
+
+    def _stretched(self, upright: Vector) -> tuple[list[Expr], Expr]:
+        """h² n along the axes, and Σ h² n², of a normal n along the same."""
+        normal = upright.components
+        stretched = [h * h * n for h, n in zip(self.half_axes, normal, strict=True)]
+        return stretched, sum((s * n for s, n in zip(stretched, normal, strict=True)), ZERO)
 
 
 @dataclass(frozen=True)

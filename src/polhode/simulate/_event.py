@@ -251,9 +251,7 @@ def in_mode(segment: Segment, quantity: Expr) -> Expr:
     elements = getattr(equations.system, "elements", ())
     open_ = {name for element in elements for name in element.absent()}
     laws = [element for element in elements if isinstance(element, ContactLaw)]
-    of_contacts = open_ | {
-        law.component(label) for law in laws for label in (*law.on.tangents, law.on.normal)
-    }
+    of_contacts = open_ | {name for law in laws for name in law.components}
     for symbol in named:
         known = {*equations.components, *equations.undetermined, *of_contacts}
         look_up(symbol.published, dict.fromkeys(sorted(known)), "reaction of the system")

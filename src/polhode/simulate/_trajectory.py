@@ -171,9 +171,9 @@ class Trajectory(Shown):
 
     @cached_property
     def final(self) -> dict[str, Any]:
-        """Everything at the end of the motion, by name, and the mode it ends in.
+        """Coordinates, speeds, rates, reactions and the energy at the end, and the last mode.
 
-        Without the reactions that Newton's laws leave open there.
+        Reactions that Newton's laws leave open there are left out.
         """
         last = len(self.segments) - 1
         known = (name for name in self.reactions if not self._is_undetermined(name, last))

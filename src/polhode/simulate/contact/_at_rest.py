@@ -15,7 +15,7 @@ import numpy as np
 
 from polhode.algebra import Expr, SymbolKind, Vector
 from polhode.derive import Mode
-from polhode.model import ContactLaw, DryFriction
+from polhode.model import DryFriction
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.integrate._arrays import Array
@@ -83,15 +83,11 @@ def _limits(hybrid: HybridSystem, mode: Mode) -> Iterator[tuple[float, str, list
     for contact, phase in zip(hybrid.automaton.contacts, mode.phases, strict=True):
         if phase.flies:
             continue
-        normal = contact.component(contact.on.normal)
+        normal, *along = contact.components
         if isinstance(contact, DryFriction):
-            yield float(hybrid.value(contact.mu_static)), normal, _components(contact)
+            yield float(hybrid.value(contact.mu_static)), normal, along
         else:
             yield np.inf, normal, []
-
-
-def _components(contact: ContactLaw) -> list[str]:
-    return [name for label in contact.on.tangents if (name := contact.component(label))]
 
 
 _Affine = tuple[float, Array]

@@ -54,7 +54,8 @@ def joint_impact(
     # Velocities that the laws bring to zero: of contacts that reverse them, plus that part.
     bounces = np.ravel([(law.restitution[1],) * 2 + (law.restitution[0],) for law in laws])
     right = (1 + bounces) * before
-    impulses = _relaxed(inverse_mass, right, laws)
+    felt = _felt(inverse_mass)
+    impulses = _relaxed(inverse_mass, right, laws, felt)
     if impulses is None:
         raise NumericError(
             f"{where}, whose impulses are not found",
@@ -62,11 +63,11 @@ def joint_impact(
             advice="end the motion before that time",
         )
     polished = _polished(inverse_mass, right, laws, impulses)
-    errors = (
-        np.max(np.abs(_round(inverse_mass, right, laws, _felt(inverse_mass), one) - one))
-        for one in (polished, impulses)
-    )
-    impulses = min(zip(errors, (0, 1), (polished, impulses), strict=True))[2]
+
+    def error(of: Array) -> float:
+        return float(np.max(np.abs(_round(inverse_mass, right, laws, felt, of) - of)))
+
+    impulses = min(polished, impulses, key=error)
     after = before + inverse_mass @ impulses
     gained = impulses @ (before + after) / 2
     if gained > _GAINED * np.abs(impulses) @ np.abs(before):
@@ -78,9 +79,14 @@ def joint_impact(
     return impulses.reshape(-1, 3), after.reshape(-1, 3)
 
 
-def _relaxed(inverse_mass: Array, right: Array, laws: Sequence[ImpactLaw]) -> Array | None:
+def _relaxed(
+    inverse_mass: Array,
+    right: Array,
+    laws: Sequence[ImpactLaw],
+    felt: Sequence[tuple[float, float]],
+) -> Array | None:
     """The impulses by relaxation; None where they do not settle."""
-    impulses, felt = np.zeros_like(right), _felt(inverse_mass)
+    impulses = np.zeros_like(right)
     for _ in range(_ROUNDS):
         after = _round(inverse_mass, right, laws, felt, impulses)
         change, impulses = np.max(np.abs(after - impulses)), after

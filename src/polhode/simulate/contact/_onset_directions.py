@@ -46,7 +46,8 @@ def onset_angle(hybrid: HybridSystem, entry: ModeState, i: int) -> Any:
     """The direction (angle, rad) in which a contact begins to slip.
 
     Kinetic friction opposes the slip to come, and the slip starts along its own rate: the direction
-    ŝ solves ṡ(ŝ) × ŝ = 0 with ṡ(ŝ) · ŝ ≥ 0. None where there is none, and others may slip instead.
+    ŝ solves ṡ(ŝ) × ŝ = 0 with ṡ(ŝ) · ŝ ≥ 0. The result is None if no direction does and another
+    contact may slip instead.
 
     Raises:
         NumericError: where no direction, or more than one, is possible.
