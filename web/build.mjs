@@ -1,10 +1,22 @@
 // Bundles the front end, scripts and style sheets for pages, frames, the lab and the worker of live pages: node build.mjs FOLDER
 import { build } from "esbuild";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
-import { join } from "node:path";
+import { join, resolve } from "node:path";
 
 const folder = process.argv[2] ?? "built";
 const BUNDLED = ["three", "uplot"];
+const THREE = resolve("node_modules/three");
+const SHADERS = join(THREE, "src/renderers/shaders");
+// of three's materials those that the pages have, what their shadows need, and what the renderer adds to each
+const MATERIALS = [
+  "src/renderers/shaders/ShaderLib/meshbasic.glsl.js",
+  "src/renderers/shaders/ShaderLib/meshlambert.glsl.js",
+  "src/renderers/shaders/ShaderLib/depth.glsl.js",
+  "src/renderers/shaders/ShaderLib/vsm.glsl.js",
+  "src/renderers/webgl/WebGLOutput.js",
+  "src/renderers/webgl/WebGLProgram.js",
+  "examples/jsm/lines/LineMaterial.js",
+];
 
 await mkdir(folder, { recursive: true });
 await build({
@@ -16,10 +28,32 @@ await build({
   target: "es2022",
   charset: "ascii",
   legalComments: "none",
+  plugins: [{ name: "three", setup: lean }],
   logLevel: "warning",
 });
 const licences = await Promise.all(BUNDLED.map(licence));
 await writeFile(join(folder, "LICENSES.txt"), licences.join("\n"));
+
+/** Bundle three from its sources, without the programs of materials that no page has. */
+async function lean(bundle) {
+  const used = await included(MATERIALS.map((path) => join(THREE, path)));
+  bundle.onResolve({ filter: /^three$/ }, () => ({ path: join(THREE, "src/Three.js"), sideEffects: false }));
+  bundle.onLoad({ filter: /\.glsl\.js$/ }, async ({ path }) => {
+    const text = await readFile(path, "utf8");
+    const kept = used.has(path) ? text.replace(/\/\*[^]*?\*\/|\/\/.*$/gm, "").replace(/\s*\n\s*/g, "\n") : text.replace(/`[^`]*`/g, '""');
+    return { contents: kept };
+  });
+}
+
+/** Programs, with all the pieces that they include, by path. */
+async function included(paths) {
+  const found = new Set(paths);
+  for (const path of found) { // which grows
+    const text = await readFile(path, "utf8");
+    for (const [, name] of text.matchAll(/(?:#include <|ShaderChunk\[ ')(\w+)/g)) found.add(join(SHADERS, "ShaderChunk", `${name}.glsl.js`));
+  }
+  return found;
+}
 
 async function licence(name) {
   const home = join("node_modules", name);

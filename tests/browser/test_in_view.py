@@ -1,11 +1,11 @@
 """Bodies are in the picture: their spheres, projected with the camera that the page has."""
 
-import base64
 import json
 
 import numpy as np
 import pytest
 
+from pages import unpacked
 from polhode.catalogue import CATALOGUE, cases_of
 from polhode.cli import main
 
@@ -17,11 +17,6 @@ CAMERA = """() => {
 
 #: Of the first size of shapes that it is not the radius of.
 HALVES = {"racquet": 0.6, "rod": 0.5, "box": 0.87}
-
-
-def rows(packed):
-    data = np.frombuffer(base64.b64decode(packed["float32"]), dtype="<f4")
-    return data.reshape(packed["shape"])
 
 
 def projected(camera, place, radius):
@@ -53,14 +48,14 @@ def test_the_first_picture_has_the_body_in_view(opened, tmp_path, name, case):
     asked = ["run", name, "--page", str(path), *(["--case", case] if case else [])]
     assert main(asked) == 0
     with opened(path) as shown:
-        scene = json.loads(shown.page.locator("#scene").text_content())
+        scene = unpacked(json.loads(shown.page.locator("#scene").text_content()))
         slider = shown.page.get_by_role("slider", name="Time")
         for share in (0, 0.37, 1):
             slider.fill(str(round(share * 2000)))
             shown.page.wait_for_timeout(100)
             camera = shown.page.evaluate(CAMERA)
             for body in scene["bodies"]:
-                places = rows(body["pose"]["place"])
+                places = body["pose"]["place"]
                 place = places[round(share * (len(places) - 1))]
                 shape = body["shape"]
                 radius = HALVES.get(shape["kind"], 1.0) * shape["size"][0]

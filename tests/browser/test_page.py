@@ -254,9 +254,64 @@ def test_moments_and_weights_say_what_they_are(opened, written):
     with opened(written("gyroscope")) as shown:
         names = shown.page.locator(".switch").all_inner_texts()
         assert sum("about pivot" in name for name in names) == 2
-        assert shown.page.locator(".switch math").text_content() == "Mg"
+        weight = shown.page.get_by_role("button", name="loads")
+        assert weight.locator("math").text_content() == "Mg"
         torque = shown.page.get_by_role("button", name="torque about the pivot")
         assert torque.locator(".value").inner_text() == "0.255 N m"
+
+
+def letters(shown):
+    """The letters in the picture, and where the middle of each is, in pixels."""
+    return {
+        letter.text_content(): np.array([box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])
+        for letter in shown.page.locator(".letter:visible").all()
+        if (box := letter.bounding_box())
+    }
+
+
+def test_arrows_and_angles_have_their_letters(opened, written):
+    with opened(written("gyroscope")) as shown:
+        shown.page.get_by_role("slider", name="Time").fill("500")
+        shown.page.wait_for_timeout(100)
+        assert letters(shown).keys() == {"F", "θ", "ϕ"}
+        for name in ("angular momentum", "loads"):
+            shown.page.get_by_role("button", name=name).click()
+        shown.page.get_by_role("button", name="Axes").click()
+        shown.page.wait_for_timeout(100)
+        everything = letters(shown)
+        assert everything.keys() == {"F", "Mg", "L", "θ", "ϕ", *"123", *"xyz"}
+        frame = shown.page.locator(".picture").bounding_box()
+        for place in everything.values():
+            assert frame["x"] < place[0] < frame["x"] + frame["width"]
+            assert frame["y"] < place[1] < frame["y"] + frame["height"]
+        shown.page.get_by_role("button", name="Angles").click()
+        shown.page.wait_for_timeout(100)
+        assert not letters(shown).keys() & {"θ", "ϕ"}
+        assert shown.complaints == []
+
+
+def test_a_torque_is_drawn_at_the_tip_of_the_momentum_that_it_changes(opened, written):
+    """So that dL/dt = τ is seen; without the momentum it begins at the pivot."""
+    with opened(written("gyroscope")) as shown:
+        shown.page.get_by_role("button", name="torque").click()
+        shown.page.wait_for_timeout(100)
+        alone = letters(shown)["τ"]
+        shown.page.get_by_role("button", name="angular momentum").click()
+        shown.page.wait_for_timeout(100)
+        found = letters(shown)
+        assert np.linalg.norm(found["τ"] - alone) > 30
+        assert np.linalg.norm(found["τ"] - found["L"]) < np.linalg.norm(alone - found["L"])
+
+
+def test_a_contact_force_has_its_parts_and_a_scale(opened, tmp_path):
+    path = tmp_path / "rough.html"
+    assert main(["run", "rolling-disk", "--mu", "0.4", "--page", str(path)]) == 0
+    with opened(path) as shown:
+        shown.page.get_by_role("button", name="N, f").click()
+        shown.page.wait_for_timeout(100)
+        assert letters(shown).keys() >= {"N", "f", "F"}
+        assert shown.page.locator(".scales > div:visible").all_inner_texts() == ["0.5 N"]
+        assert shown.complaints == []
 
 
 def test_conserved_quantities_have_letters(opened, tmp_path):

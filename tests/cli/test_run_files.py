@@ -2,6 +2,7 @@
 
 import json
 
+from pages import scene_in
 from polhode.cli import main
 
 
@@ -24,7 +25,7 @@ def test_verdicts_on_what_the_text_claims_stand_on_the_page(tmp_path, capsys):
     arguments = ["run", "gyroscope/held", "--duration", "0.1s", "--page", str(page), "--verdicts"]
     assert main(arguments) == 0
     text = page.read_text("utf-8")
-    scene = json.loads(text.split('id="scene">')[1].split("</script>")[0])
+    scene = scene_in(text)
     judged = {found["claim"]: found["verdict"] for found in scene["judgements"]}
     assert judged
     assert set(judged.values()) <= {"holds", "approximate", "definition", "fails"}

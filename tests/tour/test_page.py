@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import pytest
 
 import polhode as ph
+from pages import scene_in
 from polhode.base import SCHEMA, SilentProgress, StoreError
 from polhode.catalogue import PROBLEM_SET
 from polhode.solution import questions_of
@@ -288,10 +289,6 @@ def test_verdicts_stand_on_the_page_in_three_dimensions(tour):
     assert sum(map(len, judged.values())) == 3
     for judgements in judged.values():
         assert all("<math" in judgement["formula"] for judgement in judgements)
-
-
-def scene_in(text):
-    return json.loads(text.partition('id="scene">')[2].partition("</script>")[0])
 
 
 def test_claims_are_typeset_without_their_marks(tour):

@@ -349,7 +349,8 @@ def test_a_force_without_bound_is_no_arrow():
     """Where a formula divides by zero nothing is drawn, and the rest is to scale."""
     endless = np.full((5, 3), np.inf)
     drawn = DrawnArrow("force", "force", "", None, "N", lambda equations: None)
-    shown = bodies._arrow(drawn, 0, Magnitudes({}, {}), np.vstack([endless, np.ones((95, 3))]))
+    values, nowhere = np.vstack([endless, np.ones((95, 3))]), np.zeros((0, 3))
+    shown = bodies._arrow(drawn, 0, Magnitudes({}, {}), values, nowhere, nowhere, 0.0)
     assert np.all(shown.along[:5] == 0)
     assert shown.largest == pytest.approx(np.sqrt(3))
 

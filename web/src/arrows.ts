@@ -1,6 +1,7 @@
 // Arrows: solid where visible, faint where a body hides them.
 
 import { ConeGeometry, CylinderGeometry, Group, Mesh, MeshBasicMaterial, Quaternion, Vector3 } from "three";
+import { Letter, type Letters } from "./letters";
 import type { Pose } from "./pose";
 import { type ArrowData, type ArrowKind, Rows } from "./scene";
 
@@ -10,6 +11,14 @@ export const COLOURS: Record<ArrowKind, string> = {
   torque: "#a8518f",
   omega: "#009e73",
   momentum: "#0072b2",
+};
+
+/** Letters of vectors for which a model has none of its own. */
+export const LETTERS: Partial<Record<ArrowKind, string>> = {
+  force: "<math><mi>F</mi></math>",
+  torque: "<math><mi>τ</mi></math>",
+  omega: "<math><mi>ω</mi></math>",
+  momentum: "<math><mi>L</mi></math>",
 };
 
 const UP = new Vector3(0, 1, 0);
@@ -52,24 +61,47 @@ export function arrowObject(kind: ArrowKind, thick: number): Group {
   return group;
 }
 
+/** Give an arrow this vector in the laboratory, and tell whether it is long enough to be seen. */
+export function stretch(group: Group, vector: Vector3, thick: number): boolean {
+  const length = vector.length();
+  const isSeen = length >= 0.3 * thick && !Number.isNaN(group.position.x);
+  const tip = Math.min(1, length / (1.5 * HEAD * thick));
+  const [solid, tipped, faint, faintTip] = group.children;
+  for (const [shaft, head] of [[solid, tipped], [faint, faintTip]]) {
+    shaft.visible = head.visible = isSeen;
+    head.scale.setScalar(tip);
+    head.position.y = length;
+    shaft.scale.set(tip, Math.max(length - 0.9 * HEAD * thick * tip, 1e-9), tip);
+  }
+  if (isSeen) group.quaternion.copy(turn.setFromUnitVectors(UP, vector.normalize()));
+  return isSeen;
+}
+
+const turn = new Quaternion();
+
 export class Arrow {
+  /** Beside its tip; hidden with it. */
+  readonly letter: Letter;
+  /** An arrow at whose tip this one begins while both are shown: dL/dt = τ. */
+  follows: Arrow | null = null;
   private readonly foot: Rows;
   private readonly along: Rows;
   private readonly buffer: number[] = [];
-  private readonly vector = new Vector3();
+  private readonly drawn = new Vector3();
   private readonly from = new Vector3();
-  private readonly turn = new Quaternion();
 
   /** @param group its drawn object, of this thickness. */
   constructor(
     readonly data: ArrowData,
     readonly group: Group,
     private readonly body: Pose,
-    private readonly scale: number,
+    readonly scale: number,
     private readonly thick: number,
+    letters: Letters,
   ) {
     this.foot = new Rows(data.foot);
     this.along = new Rows(data.along);
+    this.letter = letters.add(new Letter(data.symbol || LETTERS[data.kind] || data.name.split(" on ")[0], data.kind));
   }
 
   /** Its magnitude in its unit. */
@@ -79,31 +111,25 @@ export class Arrow {
 
   /** Its tip, at most this far from its foot; m. */
   tip(frame: number, most: number, out: Vector3): Vector3 {
-    return this.drawn(frame, out).clampLength(0, most).add(this.start(frame, this.from));
+    return this.vector(frame, out).clampLength(0, most).add(this.start(frame, this.from));
   }
 
   update(frame: number): void {
-    this.start(frame, this.group.position);
-    this.drawn(frame, this.vector);
-    const length = this.vector.length();
-    const hidden = length < 0.3 * this.thick || Number.isNaN(this.group.position.x);
-    const tip = Math.min(1, length / (1.5 * HEAD * this.thick));
-    const [solid, tipped, faint, faintTip] = this.group.children;
-    for (const [shaft, head] of [[solid, tipped], [faint, faintTip]]) {
-      shaft.visible = head.visible = !hidden;
-      head.scale.setScalar(tip);
-      head.position.y = length;
-      shaft.scale.set(tip, Math.max(length - 0.9 * HEAD * this.thick * tip, 1e-9), tip);
-    }
-    if (!hidden) this.group.quaternion.copy(this.turn.setFromUnitVectors(UP, this.vector.normalize()));
+    const { group, letter, follows } = this;
+    if (follows?.group.visible) group.position.copy(follows.letter.place);
+    else this.start(frame, group.position);
+    this.vector(frame, this.drawn);
+    letter.from.copy(group.position);
+    letter.place.copy(this.drawn).multiplyScalar(group.scale.x).add(group.position);
+    letter.shown = stretch(group, this.drawn, this.thick) && group.visible;
   }
 
-  private start(frame: number, out: Vector3): Vector3 {
+  start(frame: number, out: Vector3): Vector3 {
     return this.foot.count ? out.fromArray(this.foot.at(frame, this.buffer)) : this.body.placeAt(frame, out);
   }
 
-  /** Its drawn length. */
-  private drawn(frame: number, out: Vector3): Vector3 {
+  /** As it is drawn, m. */
+  vector(frame: number, out: Vector3): Vector3 {
     return out.fromArray(this.along.at(frame, this.buffer)).multiplyScalar(this.scale);
   }
 }

@@ -5,7 +5,7 @@ import { type Clock, rates } from "./clock";
 import { digits, formula, make } from "./dom";
 import type { ArrowKind } from "./scene";
 import type { Arrow } from "./arrows";
-import type { Stage } from "./stage";
+import type { Extra, Stage } from "./stage";
 
 const STEP = 0.01; // of the duration, for one press of an arrow key
 const FINENESS = 2000; // positions of the slider
@@ -16,6 +16,12 @@ const NAMES: Record<ArrowKind, [string, string]> = {
   torque: ["τ", "torque"],
   omega: ["ω", "angular velocity"],
   momentum: ["L", "angular momentum"],
+};
+
+const EXTRAS: Record<Extra, [string, string]> = {
+  components: ["N, f", "normal force and friction, with the cone of friction"],
+  angles: ["Angles", "angles of the rotations that lead to the axes"],
+  axes: ["Axes", "axes of the bodies and of the laboratory"],
 };
 
 const ICONS = {
@@ -70,6 +76,12 @@ function speed(clock: Clock): HTMLElement {
 export function switches(stage: Stage, clock: Clock): HTMLElement {
   const arrows = stage.kinds.map((kind) => arrowSwitch(kind, stage, clock));
   const traces = toggle("Traces", stage.showsTraces, (on) => stage.showTraces(on));
+  const extras = (Object.keys(EXTRAS) as Extra[]).filter((extra) => stage.has(extra)).map((extra) => {
+    const [text, title] = EXTRAS[extra];
+    const button = toggle(text, stage.extras[extra], (on) => stage.showExtra(extra, on));
+    button.title = title;
+    return button;
+  });
   const follow = toggle("Follow", stage.view.follow, (on) => stage.setFollow(on));
   const home = make("button", { type: "button", class: "switch" }, "Reset view");
   home.addEventListener("click", () => stage.view.home());
@@ -77,6 +89,7 @@ export function switches(stage: Stage, clock: Clock): HTMLElement {
     "div",
     { class: "switches", role: "group", "aria-label": "What is shown" },
     ...arrows,
+    ...extras,
     ...(stage.traces.length ? [traces] : []),
     follow,
     home,

@@ -59,8 +59,16 @@ function giveUp(object: Object3D): void {
   for (const material of [object.material].flat() as Material[]) material.dispose();
 }
 
+/** That this browser cannot draw in three dimensions. */
+export class NoWebGL extends Error {}
+
 function rendererOf(): WebGLRenderer {
-  const renderer = new WebGLRenderer({ antialias: true, alpha: true });
+  let renderer: WebGLRenderer;
+  try {
+    renderer = new WebGLRenderer({ antialias: true, alpha: true });
+  } catch (error) {
+    throw new NoWebGL(String(error));
+  }
   renderer.debug.checkShaderErrors = false; // waiting for them holds up the first picture
   renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
   renderer.shadowMap.enabled = true;

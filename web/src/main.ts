@@ -5,10 +5,12 @@ import "./page.css";
 import { makeFallback } from "./fallback";
 import { Clock, rates } from "./clock";
 import { keys, switches, transport } from "./controls";
+import { NoWebGL } from "./display";
 import type { LiveData } from "./live/model";
 import { LivePage } from "./live/page";
 import { make, painted } from "./dom";
 import { Plots } from "./plots";
+import { unpacked } from "./packed";
 import type { SceneData } from "./scene";
 import { Stage } from "./stage";
 import { modeStrip } from "./strip";
@@ -53,7 +55,8 @@ function described(scene: SceneData): string {
 function staged(scene: SceneData, picture: HTMLElement): Stage | null {
   try {
     return new Stage(scene, picture);
-  } catch {
+  } catch (error) {
+    if (!(error instanceof NoWebGL)) throw error;
     makeFallback(picture, "Plots, slider and numbers");
     return null;
   }
@@ -64,19 +67,19 @@ function read<T>(id: string): T | null {
   return text ? (JSON.parse(text) as T) : null;
 }
 
-/** What a live page has besides: compressed JSON in base64. */
-async function unpacked(packed: string): Promise<{ live: LiveData; worker: string }> {
-  const bytes = Uint8Array.from(atob(packed), (character) => character.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return (await new Response(stream).json()) as { live: LiveData; worker: string };
+async function open(packed: string, more: string | null): Promise<void> {
+  const scene = await unpacked<SceneData>(packed).catch(() => null);
+  if (!scene) return refuse();
+  if (more === null) return show(scene);
+  const { live, worker } = await unpacked<{ live: LiveData; worker: string }>(more);
+  await new LivePage(scene, live, worker).open();
 }
 
-async function open(scene: SceneData, packed: string | null): Promise<void> {
-  if (packed === null) return show(scene);
-  const content = await unpacked(packed).catch(() => null); // in a browser that cannot unpack it
-  if (content) await new LivePage(scene, content.live, content.worker).open();
-  else show(scene);
+/** In a browser that cannot unpack it. */
+function refuse(): void {
+  document.body.append(make("p", {}, "This browser is too old for this page: open it in one that was made since 2023."));
+  document.body.dataset.ready = "yes";
 }
 
-const scene = read<SceneData>("scene");
+const scene = read<string>("scene");
 if (scene) void open(scene, read<string>("live"));

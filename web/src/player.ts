@@ -3,6 +3,7 @@
 import { makeFallback } from "./fallback";
 import { Clock, rates } from "./clock";
 import { keys, switches, transport } from "./controls";
+import { NoWebGL } from "./display";
 import { make } from "./dom";
 import { Plots } from "./plots";
 import type { AccountData, SceneData } from "./scene";
@@ -94,7 +95,8 @@ export class Player {
     if (this.blind) return null;
     try {
       return new Stage(scene, this.picture, this.stage ?? undefined, same);
-    } catch {
+    } catch (error) {
+      if (!(error instanceof NoWebGL)) throw error;
       this.blind = true;
       makeFallback(this.picture, "Plots, sliders and numbers");
       return null;

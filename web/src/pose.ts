@@ -32,7 +32,8 @@ export class Pose {
     }
   }
 
-  private turnAt(frame: number, out: Quaternion): void {
+  /** Its axes, which do not turn with its spin. */
+  turnAt(frame: number, out: Quaternion): void {
     const { data, count } = this.turn;
     const first = Math.min(Math.floor(frame), count - 1);
     out.fromArray(data, 4 * first);

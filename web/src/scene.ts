@@ -1,9 +1,12 @@
 // The scene as polhode writes it; the fields are documented at Scene in polhode.view.
 
-/** In a page the numbers are in base64; in the lab they are binary. */
+import { summed } from "./packed";
+
+/** In a page the numbers are packed (`packed.ts`); in the lab, and in what a page has computed, they are as they are. */
 export interface Packed {
   shape: number[];
-  float32: string | Float32Array;
+  float32?: Float32Array;
+  steps?: string;
 }
 
 /** Rows of numbers; a single row if nothing changes. */
@@ -13,10 +16,9 @@ export class Rows {
   readonly width: number;
 
   constructor(packed: Packed) {
-    const { float32 } = packed;
-    this.data = typeof float32 === "string" ? decoded(float32) : float32;
     this.count = packed.shape[0];
     this.width = packed.shape.slice(1).reduce((size, length) => size * length, 1);
+    this.data = packed.float32 ??= summed(packed.steps ?? "", this.count, this.width);
   }
 
   /** Linear interpolation between rows; `frame` need not be an integer. */
@@ -30,13 +32,6 @@ export class Rows {
     }
     return out;
   }
-}
-
-function decoded(base64: string): Float32Array {
-  const text = atob(base64);
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
-  return new Float32Array(bytes.buffer);
 }
 
 export type Triple = [number, number, number];
@@ -61,6 +56,7 @@ export interface BodyData {
   shape: ShapeData;
   pose: PoseData;
   arms: Triple[];
+  labels: string[];
 }
 
 export interface JointData {
@@ -100,6 +96,23 @@ export interface ArrowData {
   along: Packed;
   usual: number;
   largest: number;
+  normal: Packed;
+  friction: number;
+}
+
+export interface RotationData {
+  symbol: string;
+  angle: Packed;
+  axis: Triple;
+  begin: Triple;
+  offset: number;
+}
+
+export interface AnglesData {
+  name: string;
+  body: number;
+  vertex: Packed;
+  rotations: RotationData[];
 }
 
 export interface TraceData {
@@ -178,6 +191,7 @@ export interface SceneData extends AccountData {
   links: LinkData[];
   supports: SupportData[];
   arrows: ArrowData[];
+  angles: AnglesData[];
   traces: TraceData[];
   judgements: JudgementData[];
   origin: { versions?: Record<string, string | null>; integrator?: string };

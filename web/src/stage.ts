@@ -4,13 +4,17 @@ import { type Object3D, Vector2, Vector3 } from "three";
 import { Arrow, arrowObject, scales, usuallyShown } from "./arrows";
 import { type Extent, extentOf, tracedBy } from "./extent";
 import { CameraView } from "./camera_view";
+import { Components } from "./components";
 import { Display } from "./display";
+import { AngleArcs, Axes, type Guide, THIN } from "./guides";
+import { Letters } from "./letters";
 import { Link } from "./links";
 import { Plan } from "./plan";
 import { Pose } from "./pose";
 import { mounts } from "./mounts";
 import { type ArrowKind, Rows, type SceneData, type SupportData, type Triple } from "./scene";
 import { reach } from "./reach";
+import { ScaleBars } from "./scale_bars";
 import { bodyObject } from "./shapes";
 import { boundless, paint, surfaceOf } from "./supports";
 import { Trace } from "./traces";
@@ -19,7 +23,12 @@ import { Triad } from "./triad";
 const SPACIOUS = 6; // body sizes: beyond this extent, arrows are drawn larger
 const WANDERS = 12; // body sizes: beyond this extent the body would be a dot, and is followed
 const WIDE = 60; // reaches by which a sheet is wider while a hand pulls it
+const ARCS = 0.9; // size by which arcs far from their body are drawn, against that distance
+const TOUCHING = 1e-6; // reaches
 const LIFT = 0.05; // of a floor below what stands on it, in reaches
+
+/** Switched on and off beside arrows and traces. */
+export type Extra = "angles" | "axes" | "components";
 
 export class Stage {
   readonly arrows: Arrow[];
@@ -29,6 +38,11 @@ export class Stage {
   private readonly shown: Set<ArrowKind>;
   private readonly links: Link[];
   private readonly triad: Triad;
+  private readonly letters = new Letters();
+  private readonly bars: ScaleBars;
+  private readonly angles: Guide[];
+  private readonly axes: Guide[];
+  private readonly components: Components[];
   private readonly plan: Plan;
   private readonly moving: { pose: Pose; object: Object3D }[] = [];
   private readonly poses: Pose[];
@@ -41,9 +55,11 @@ export class Stage {
   private frame = 0;
   private stale = false;
   private traced = true;
+  /** What else there is to switch on. */
+  readonly extras: Record<Extra, boolean> = { angles: true, axes: false, components: false };
 
   /**
-   * Throws where there is no WebGL.
+   * Throws `NoWebGL` where there is none.
    *
    * It takes the place of an earlier stage, and its view of the same bodies where that is kept.
    */
@@ -59,7 +75,9 @@ export class Stage {
     this.poses = scene.bodies.map((body) => new Pose(body.pose));
     this.links = scene.links.map((data) => new Link(data));
     const reaches = Math.max(...scene.bodies.map(reach));
-    this.arrows = this.makeArrows(reaches);
+    const thick = 0.028 * reaches;
+    this.arrows = this.makeArrows(reaches, thick);
+    this.components = this.arrows.filter(({ data }) => data.normal.shape[0]).map((arrow) => new Components(arrow, thick, this.letters));
     this.shown = usuallyShown(this.kinds);
     const first = this.arrows.filter(({ data }) => this.shown.has(data.kind));
     this.extent = extentOf(new Vector3(...scene.up), this.poses, reaches, this.fixed(), first, scene.traces.flatMap(tracedBy), scene.supports, scene.frames);
@@ -69,15 +87,18 @@ export class Stage {
     this.addGrounds(this.grid);
     this.traces = scene.traces.map((data) => new Trace(data));
     for (const trace of this.traces) this.carrier(trace).add(this.display.own(trace.line));
-    for (const link of this.links) this.display.own(link.object);
+    this.angles = this.makeAngles();
+    this.axes = this.makeAxes(reaches);
+    for (const { object } of [...this.links, ...this.angles, ...this.axes, ...this.components]) this.display.own(object);
+    this.bars = new ScaleBars(this.arrows);
     before?.leave();
     const from = this.display.camera.position.clone();
     this.fit();
     const body = (out: Vector3): Vector3 => this.poses[0].placeAt(this.frame, out);
     this.view = new CameraView(this.display, holder, this.extent, follow, body, () => this.draw());
-    this.open(from, keepsView ? before : undefined);
     this.plan = new Plan(this.extent.up, scene.traces);
-    holder.append(Object.assign(this.canvas, { camera: this.display.camera }), this.triad.element, this.plan.element); // which tells what is in view
+    this.open(from, keepsView ? before : undefined);
+    holder.append(Object.assign(this.canvas, { camera: this.display.camera }), this.letters.element, this.triad.element, this.bars.element, this.plan.element); // which tells what is in view
     this.showPlan();
     this.fitting.observe(holder);
   }
@@ -88,6 +109,7 @@ export class Stage {
     if (before) this.view.choose(before.view.chosen);
     for (const { data, group } of this.arrows) group.visible = this.shown.has(data.kind);
     this.showTraces(this.traced);
+    for (const [extra, shown] of Object.entries(this.extras)) this.showExtra(extra as Extra, shown);
     this.magnify();
     this.view.home();
     if (before) this.view.takeOver(before.view, from);
@@ -115,6 +137,7 @@ export class Stage {
   /** Keep what was switched on or off. */
   private inherit(before: Stage): void {
     this.traced = before.traced;
+    Object.assign(this.extras, before.extras);
     for (const kind of before.kinds) this.shown[before.shown.has(kind) ? "add" : "delete"](kind);
   }
 
@@ -122,7 +145,7 @@ export class Stage {
     this.display.set();
     this.stale = false;
     this.fitting.disconnect();
-    this.triad.element.remove();
+    for (const { element } of [this.letters, this.triad, this.bars]) element.remove();
     this.plan.element.remove();
     this.view.leave();
   }
@@ -130,6 +153,8 @@ export class Stage {
   /** Hide what belongs to the previous motion, on a wide sheet, while the sheet is dragged. */
   bare(): void {
     for (const arrow of this.arrows) arrow.group.visible = false;
+    for (const part of [...this.angles, ...this.axes, ...this.components]) part.show(false);
+    this.letters.element.hidden = true;
     for (const trace of this.traces) trace.line.removeFromParent();
     for (const sheet of this.sheets) {
       const { reach } = sheet.support;
@@ -180,6 +205,23 @@ export class Stage {
   show(kind: ArrowKind, shown: boolean): void {
     this.shown[shown ? "add" : "delete"](kind);
     for (const arrow of this.arrows) if (arrow.data.kind === kind) arrow.group.visible = shown;
+    this.refresh();
+  }
+
+  /** Whether there is anything of this sort to be shown. */
+  has(extra: Extra): boolean {
+    return this[extra].length > 0;
+  }
+
+  showExtra(extra: Extra, shown: boolean): void {
+    this.extras[extra] = shown;
+    for (const part of this[extra]) part.show(shown);
+    this.refresh();
+  }
+
+  /** Draw again what depends on what else is shown. */
+  private refresh(): void {
+    this.seekFrame();
     this.draw();
   }
 
@@ -192,7 +234,7 @@ export class Stage {
   theme(dark: boolean): void {
     this.dark = dark;
     paint(this.display.world, dark);
-    for (const trace of this.traces) trace.theme(dark);
+    for (const part of [...this.traces, ...this.angles, ...this.axes]) part.theme(dark);
     this.draw();
   }
 
@@ -205,7 +247,9 @@ export class Stage {
 
   private seekFrame(): void {
     for (const { pose, object } of this.moving) pose.apply(this.frame, object);
-    for (const arrow of this.arrows) arrow.update(this.frame);
+    for (const arrow of this.arrows) if (!arrow.follows) arrow.update(this.frame);
+    for (const arrow of this.arrows) if (arrow.follows) arrow.update(this.frame);
+    for (const part of [...this.angles, ...this.axes, ...this.components]) part.update(this.frame);
     for (const link of this.links) link.update(this.frame);
     for (const trace of this.traces) trace.update(this.frame);
     this.plan.update(this.poses[0].placeAt(this.frame, new Vector3()));
@@ -223,7 +267,10 @@ export class Stage {
   drawNow(): void {
     this.stale = false;
     this.display.draw();
-    this.triad.update(this.display.camera);
+    const { camera } = this.display;
+    this.triad.update(camera);
+    this.letters.update(camera, this.holder.clientWidth, this.holder.clientHeight);
+    this.bars.update(camera, this.poses[0].placeAt(this.frame, new Vector3()), this.holder.clientHeight);
   }
 
   private fit(): void {
@@ -308,13 +355,31 @@ export class Stage {
       .map(({ point }) => point);
   }
 
-  private makeArrows(reach: number): Arrow[] {
-    const thick = 0.028 * reach;
+  private makeArrows(reach: number, thick: number): Arrow[] {
     const scale = scales(this.scene.arrows, reach);
-    return this.scene.arrows.map((data) => {
+    const arrows = this.scene.arrows.map((data) => {
       const { kind, body } = data;
       const object = this.display.part({ kind, thick }, () => arrowObject(kind, thick));
-      return new Arrow(data, object, this.poses[body], scale(kind), thick);
+      return new Arrow(data, object, this.poses[body], scale(kind), thick, this.letters);
     });
+    for (const torque of arrows.filter(({ data }) => data.kind === "torque")) {
+      torque.follows = arrows.find(({ data }) => data.kind === "momentum" && data.body === torque.data.body) ?? null;
+    }
+    return arrows;
+  }
+
+  private makeAngles(): Guide[] {
+    return this.scene.angles.map((data) => {
+      const vertex = new Vector3().fromArray(new Rows(data.vertex).at(0, []));
+      const away = this.poses[data.body].placeAt(0, new Vector3()).distanceTo(vertex);
+      const size = reach(this.scene.bodies[data.body]);
+      return new AngleArcs(data, Math.max(size, ARCS * away), THIN * size, away > TOUCHING * size, this.letters);
+    });
+  }
+
+  /** Those of the laboratory, and of every body that has axes. */
+  private makeAxes(size: number): Guide[] {
+    const own = this.scene.bodies.flatMap((body, i) => (body.labels.length ? [new Axes(this.poses[i], body.labels, reach(body), true, this.letters)] : []));
+    return [new Axes(this.poses[0], this.scene.directions, size, false, this.letters), ...own];
   }
 }

@@ -4,7 +4,11 @@ import { type Camera, Vector3 } from "three";
 
 const SIZE = 72;
 const LONG = 24;
-const COLOURS = ["#b3400e", "#00755a", "#005f99"];
+/** Colours of axes, by day and by night. */
+export const AXES = [
+  ["#b3400e", "#00755a", "#005f99"],
+  ["#f58a4b", "#35c79b", "#62b5ec"],
+];
 
 export class Triad {
   readonly element = svg("svg", { viewBox: `${-SIZE / 2} ${-SIZE / 2} ${SIZE} ${SIZE}`, class: "triad", "aria-hidden": "true" });
@@ -13,8 +17,8 @@ export class Triad {
 
   constructor(directions: string[]) {
     this.axes = directions.map((direction, i) => {
-      const line = svg("line", { stroke: COLOURS[i % 3], "stroke-width": "2", "stroke-linecap": "round" });
-      const name = svg("text", { fill: COLOURS[i % 3], "text-anchor": "middle", "dominant-baseline": "central" });
+      const line = svg("line", { stroke: AXES[0][i % 3], "stroke-width": "2", "stroke-linecap": "round" });
+      const name = svg("text", { fill: AXES[0][i % 3], "text-anchor": "middle", "dominant-baseline": "central" });
       name.textContent = GREEK[direction] ?? direction;
       this.element.append(line, name);
       return { line, name };
@@ -31,7 +35,7 @@ export class Triad {
   }
 }
 
-const GREEK: Record<string, string> = { rho: "ρ", phi: "φ", theta: "θ", psi: "ψ", xi: "ξ", eta: "η", zeta: "ζ" };
+export const GREEK: Record<string, string> = { rho: "ρ", phi: "φ", theta: "θ", psi: "ψ", xi: "ξ", eta: "η", zeta: "ζ" };
 
 function svg(tag: string, attributes: Record<string, string>): SVGElement {
   const element = document.createElementNS("http://www.w3.org/2000/svg", tag);

@@ -24,7 +24,7 @@ from polhode.lab._requests import CONTACTS, Fields, question_of, run_request, so
 from polhode.lab._reviews import reviewed
 from polhode.lab._steady import SteadyFamily, families_of, invariants_of
 from polhode.lab._system_session import SystemSession, VariantRun, variant
-from polhode.view import plain
+from polhode.view import Array, plain, single_precision
 
 _WORD = 4  # bytes of a number (float32) in a packet, and of the length of its JSON, little-endian
 _RUN_FIELDS = ("system", "contact", "settings", "start", "duration", "sheet")
@@ -151,10 +151,10 @@ def packet(document: Any) -> bytes:
     """
     numbers = bytearray()
 
-    def placed(more: bytes) -> list[int]:
+    def placed(values: Array) -> dict[str, list[int]]:
         begin = len(numbers) // _WORD
-        numbers.extend(more)
-        return [begin, len(numbers) // _WORD]
+        numbers.extend(single_precision(values))
+        return {"float32": [begin, len(numbers) // _WORD]}
 
     text = json.dumps(plain(document, placed), ensure_ascii=False, allow_nan=False).encode("utf-8")
     text += b" " * (-len(text) % _WORD)  # typed arrays in JavaScript must be aligned

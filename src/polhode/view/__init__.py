@@ -32,10 +32,12 @@ from polhode.view._notebook import html_of as html_of
 from polhode.view._page import page as page
 from polhode.view._page import page_of as page_of
 from polhode.view._published import words_with_published as words_with_published
+from polhode.view._quantities import Array as Array
 from polhode.view._quantities import si_unit as si_unit
 from polhode.view._scene import MotionSummary as MotionSummary
 from polhode.view._scene import Scene as Scene
 from polhode.view._scene import plain as plain
+from polhode.view._scene import single_precision as single_precision
 from polhode.view._scene_build import account as account
 from polhode.view._scene_build import poses as poses
 from polhode.view._scene_build import scene as scene

@@ -7,7 +7,7 @@ page has a kernel that computes them for motions of its own.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from polhode.algebra import Expr, Symbol, Vector
 from polhode.derive import Equations
@@ -17,12 +17,14 @@ from polhode.model import (
     BodyPoint,
     Contact,
     DryFriction,
+    Element,
     Gravity,
     Hinge,
     Hold,
     Load,
     Pivot,
     Plane,
+    Smooth,
     Support,
     System,
     TwoPointLink,
@@ -54,6 +56,11 @@ def turning_of(body: Body) -> VectorInMode:
         return equations.kinetics.velocities[body][1] - carried
 
     return turning
+
+
+def labels_of(body: Body) -> tuple[str, ...]:
+    """Names of its axes; none for a ball whose attitude no coordinates describe."""
+    return () if body.fixed_axes is None else body.axes.labels
 
 
 def links_in(system: System) -> Iterator[tuple[str, TwoPointLink]]:
@@ -208,6 +215,8 @@ class DrawnArrow:
         unit: of its components.
         along: the vector.
         foot: where it begins; None for the centre of mass of the body.
+        normal: of a contact with friction, or one that rolls.
+        friction: coefficient of static friction of such a contact; None where it has none.
     """
 
     kind: str
@@ -217,6 +226,8 @@ class DrawnArrow:
     unit: str
     along: VectorInMode
     foot: VectorInMode | None = None
+    normal: VectorInMode | None = None
+    friction: Expr | None = None
 
 
 def arrows_in(system: System, modes: Sequence[Equations]) -> Iterator[DrawnArrow]:
@@ -226,9 +237,11 @@ def arrows_in(system: System, modes: Sequence[Equations]) -> Iterator[DrawnArrow
         for name, reaction in equations.reactions.items():
             attached.setdefault(name, reaction.body)
     for name, body in attached.items():
-        limited = isinstance(system.element(name), DryFriction)
-        force, foot = _reaction(name, body, limited=limited)
-        yield DrawnArrow("force", f"force at {name}", "", body, "N", force, foot)
+        element = system.element(name)
+        force, foot = _reaction(name, body, limited=isinstance(element, DryFriction))
+        letter = inline(Expr.generator(Symbol(element.force))) if hasattr(element, "force") else ""
+        drawn = DrawnArrow("force", f"force at {name}", letter, body, "N", force, foot)
+        yield replace(drawn, normal=_normal(element), friction=_friction(element))
     for load in system.loads:
         for body in system.bodies:
             force = _force(load, body)
@@ -237,6 +250,22 @@ def arrows_in(system: System, modes: Sequence[Equations]) -> Iterator[DrawnArrow
             )
     for body in system.bodies:
         yield from _rotation(system, body)
+
+
+def _normal(element: Element) -> VectorInMode | None:
+    """The normal of a contact whose force may have another part."""
+    if not isinstance(element, Contact) or isinstance(element, Smooth):
+        return None
+
+    def normal(equations: Equations) -> Vector:
+        present = equations.system.element(element.name)
+        return present.on.up if isinstance(present, Contact) else element.on.up
+
+    return normal
+
+
+def _friction(element: Element) -> Expr | None:
+    return element.mu_static if isinstance(element, DryFriction) else None
 
 
 def _letter(load: Load, body: Body) -> str:

@@ -46,11 +46,13 @@ from polhode.view._drawn import (
     directions_of,
     end_of_link,
     joints_in,
+    labels_of,
     links_in,
     place_of,
     sided_in,
     turning_of,
 )
+from polhode.view._drawn_angles import angles_in
 from polhode.view._quantities import Array, equations_of, quantity
 from polhode.view._scene import Scene
 from polhode.view._scene_build import frames_of, up_of
@@ -334,8 +336,28 @@ def _drawn(
                 "unit": arrow.unit,
                 "foot": outputs.vector(arrow.foot),
                 "along": outputs.vector(arrow.along),
+                "normal": outputs.vector(arrow.normal),
+                "friction": None if arrow.friction is None else outputs.numbers([arrow.friction]),
             }
             for arrow in arrows_in(system, equations)
+        ],
+        "angles": [
+            {
+                "name": angles.name,
+                "body": angles.body,
+                "vertex": outputs.vector(angles.vertex),
+                "rotations": [
+                    {
+                        "symbol": rotation.symbol,
+                        "angle": outputs.numbers([rotation.angle])[0],
+                        "axis": outputs.numbers(rotation.axis),
+                        "begin": outputs.numbers(rotation.begin),
+                        "offset": outputs.numbers([rotation.offset])[0],
+                    }
+                    for rotation in angles.rotations
+                ],
+            }
+            for angles in angles_in(system)
         ],
         "panels": _panels(run, shown, outputs),
         "energy": outputs.meanings(energies),
@@ -364,6 +386,7 @@ def _body(body: Body, is_sided: bool, system: System, outputs: _Outputs) -> dict
         "spin": spin,
         "axis": axis,
         "arms": [outputs.numbers(arm) for arm in arms_in(system, body)],
+        "labels": labels_of(body),
     }
 
 

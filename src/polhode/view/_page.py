@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from base64 import b64encode
 from collections.abc import Iterable, Mapping
 from functools import cache
@@ -10,7 +9,6 @@ from hashlib import sha256
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
-from zlib import compress
 
 from polhode.base import StoreError, write_whole
 from polhode.simulate import Trajectory
@@ -18,6 +16,7 @@ from polhode.view._html import Markup, document, json_element, tag
 from polhode.view._judgement import Judgement
 from polhode.view._live import live_document
 from polhode.view._mathml import math_fonts
+from polhode.view._packed import packed, packed_scene
 from polhode.view._quantities import Groups
 from polhode.view._scene import Scene
 from polhode.view._scene_build import scene
@@ -108,17 +107,17 @@ def page_of(shown: Scene, live: Mapping[str, Any] | None = None) -> str:
         shown.title,
         math_fonts() + front_end("page.css"),
         tag("noscript", tag("p", "This page needs its script to play a motion; please allow it.")),
-        json_element("scene", shown.as_json()),
-        *([json_element("live", _packed({"live": live, "worker": worker}))] if live else []),
+        scene_element(shown),
+        *([json_element("live", packed({"live": live, "worker": worker}))] if live else []),
         tag("script", Markup(script)),
         Markup(f"<!--\nThe script contains these works:\n\n{licences}\n-->"),
         head=[policy(digest(script), computes=bool(live))],
     )
 
 
-def _packed(data: Mapping[str, Any]) -> str:
-    """Data as compressed JSON in base64: kernels shrink to a third."""
-    return b64encode(compress(json.dumps(data, allow_nan=False).encode(), 9)).decode("ascii")
+def scene_element(shown: Scene) -> Markup:
+    """The element of a page that holds its scene."""
+    return json_element("scene", packed_scene(shown))
 
 
 def digest(script: str) -> str:

@@ -84,12 +84,14 @@ class SceneBody:
         shape: what it looks like.
         pose: of its axes, with the spin about one of them.
         arms: from the centre of mass to the points at which it is held, along its axes, m.
+        labels: names of its axes, those that do not turn with its spin; none for a ball without.
     """
 
     name: str
     shape: BodyShape
     pose: Pose
     arms: tuple[Triple, ...]
+    labels: tuple[str, ...] = ()
 
     @property
     def reach(self) -> float:
@@ -172,6 +174,8 @@ class Arrow:
         along: components, in `unit`.
         usual: length that it keeps below for nine tenths of the motion.
         largest: greatest length.
+        normal: of a contact, a unit vector; empty where the force has no other part.
+        friction: coefficient of static friction of a contact; 0 where none is declared.
     """
 
     kind: str
@@ -183,6 +187,44 @@ class Arrow:
     along: Array
     usual: float
     largest: float
+    normal: Array = field(default_factory=lambda: NOWHERE)
+    friction: float = 0.0
+
+
+@dataclass(frozen=True)
+class Rotation:
+    """One of the rotations that lead from the root frame to some axes, with the arc of its angle.
+
+    Attributes:
+        symbol: MathML of the angle; empty where no arc is drawn.
+        angle: by which it turns, rad, shape (frames or 1,).
+        axis: unit vector along the directions before the rotation, or after it.
+        begin: unit vector along the directions before it from which the arc begins.
+        offset: the angle where the arc begins, rad.
+    """
+
+    symbol: str
+    angle: Array
+    axis: Triple
+    begin: Triple
+    offset: float
+
+
+@dataclass(frozen=True)
+class Angles:
+    """The angles that lead to some axes, drawn around a point.
+
+    Attributes:
+        name: of the body or contact whose axes they are.
+        body: position among the bodies of the one by whose size they are drawn.
+        vertex: the point, m, shape (frames or 1, 3).
+        rotations: from the first to the last.
+    """
+
+    name: str
+    body: int
+    vertex: Array
+    rotations: tuple[Rotation, ...]
 
 
 @dataclass(frozen=True)
@@ -288,7 +330,7 @@ class Scene(Shown):
         up: unit vector that is upright on the screen.
         floor: height of a faint floor beneath everything, m; None where a support is one.
         directions: names of the directions of the root frame; on the Earth with where they point.
-        bodies, joints, links, supports, arrows, traces, panels: what is drawn.
+        bodies, joints, links, supports, arrows, angles, traces, panels: what is drawn.
         motion, reactions: the equations.
         parameters, start: numbers it was made with.
         evidence: relative drift of conserved quantities.
@@ -311,6 +353,7 @@ class Scene(Shown):
     links: tuple[Link, ...]
     supports: tuple[Support, ...]
     arrows: tuple[Arrow, ...]
+    angles: tuple[Angles, ...]
     traces: tuple[Trace, ...]
     panels: tuple[Panel, ...] = ()
     motion: tuple[Formula, ...] = ()
@@ -337,22 +380,27 @@ class Scene(Shown):
         return document
 
 
-def in_base64(numbers: bytes) -> str:
-    """Numbers as text."""
-    return base64.b64encode(numbers).decode("ascii")
+def in_base64(values: Array) -> dict[str, str]:
+    """The numbers of an array as text."""
+    return {"float32": base64.b64encode(single_precision(values)).decode("ascii")}
 
 
-def plain(value: Any, encode: Callable[[bytes], object] = in_base64) -> Any:
+def single_precision(values: Array) -> bytes:
+    """The numbers of an array, little-endian."""
+    return values.astype("<f4").tobytes()
+
+
+def plain(value: Any, encode: Callable[[Array], Mapping[str, object]] = in_base64) -> Any:
     """A part of a scene as plain data.
 
     Args:
         value: the part.
-        encode: gives what stands for the numbers of an array, which come as little-endian float32.
+        encode: gives what stands beside the shape of an array for its numbers.
     """
     if is_dataclass(value):
         return {f.name: plain(getattr(value, f.name), encode) for f in fields(value)}
     if isinstance(value, np.ndarray):
-        return {"shape": list(value.shape), "float32": encode(value.astype("<f4").tobytes())}
+        return {"shape": list(value.shape), **encode(value)}
     if isinstance(value, tuple | list):
         return [plain(item, encode) for item in value]
     if isinstance(value, Mapping):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from math import hypot
 
 import numpy as np
 
@@ -20,14 +21,27 @@ from polhode.view._drawn import (
     arrows_in,
     end_of_link,
     joints_in,
+    labels_of,
     links_in,
     place_of,
     sided_in,
     turning_of,
 )
+from polhode.view._drawn_angles import DrawnRotation, angles_in
 from polhode.view._magnitudes import Magnitudes
 from polhode.view._quantities import Array, equations_of, modes_of
-from polhode.view._scene import NOWHERE, Arrow, BodyShape, Joint, Link, Pose, SceneBody, Triple
+from polhode.view._scene import (
+    NOWHERE,
+    Angles,
+    Arrow,
+    BodyShape,
+    Joint,
+    Link,
+    Pose,
+    Rotation,
+    SceneBody,
+    Triple,
+)
 from polhode.view._scene_along import along, attitudes, collapsed, constants, rolled, vectors
 from polhode.view._shapes import source_of
 
@@ -49,6 +63,7 @@ def bodies_of(run: Trajectory, links: Sequence[Link], t: Array) -> tuple[SceneBo
             point_like if body in sided else _shape(run, body),
             _pose(run, body, t),
             tuple(_triple(constants(run, arm)) for arm in arms_in(system, body)),
+            labels_of(body),
         )
         for body in system.bodies
     ]
@@ -140,6 +155,8 @@ def arrows_of(run: Trajectory, t: Array, sizes: Magnitudes) -> tuple[Arrow, ...]
             sizes,
             vectors(run, drawn.along, t),
             NOWHERE if drawn.foot is None else collapsed(vectors(run, drawn.foot, t)),
+            NOWHERE if drawn.normal is None else collapsed(vectors(run, drawn.normal, t)),
+            0.0 if drawn.friction is None else constants(run, [drawn.friction])[0],
         )
         for drawn in arrows_in(system, modes_of(run))
     ]
@@ -149,11 +166,47 @@ def arrows_of(run: Trajectory, t: Array, sizes: Magnitudes) -> tuple[Arrow, ...]
 
 
 def _arrow(
-    drawn: DrawnArrow, body: int, sizes: Magnitudes, values: Array, foot: Array = NOWHERE
+    drawn: DrawnArrow,
+    body: int,
+    sizes: Magnitudes,
+    values: Array,
+    foot: Array,
+    normal: Array,
+    friction: float,
 ) -> Arrow:
     finite = np.nan_to_num(values, posinf=0.0, neginf=0.0)
     shown = sizes.without_rounding(finite, drawn.unit)
     lengths = np.linalg.norm(shown, axis=1)
     usual, largest = float(np.quantile(lengths, _USUAL)), float(np.max(lengths))
     kind, name, symbol, unit = drawn.kind, drawn.name, drawn.symbol, drawn.unit
-    return Arrow(kind, name, symbol, body, unit, foot, collapsed(shown), usual, largest)
+    along = collapsed(shown)
+    return Arrow(kind, name, symbol, body, unit, foot, along, usual, largest, normal, friction)
+
+
+# --- angles ---
+
+
+def angles_of(run: Trajectory, t: Array) -> tuple[Angles, ...]:
+    """The angles of curved supports and of bodies, where an arc of one is drawn."""
+    system = equations_of(run).system
+    return tuple(
+        Angles(
+            drawn.name,
+            drawn.body,
+            collapsed(vectors(run, drawn.vertex, t)),
+            tuple(_rotation(run, rotation, t) for rotation in drawn.rotations),
+        )
+        for drawn in angles_in(system)
+    )
+
+
+def _rotation(run: Trajectory, drawn: DrawnRotation, t: Array) -> Rotation:
+    angle = collapsed(along(run, lambda equations: [drawn.angle], 1, t))[:, 0]
+    axis, begin = (_triple(constants(run, row)) for row in (drawn.axis, drawn.begin))
+    (offset,) = constants(run, [drawn.offset])
+    return Rotation(drawn.symbol, angle, axis, _unit(begin), offset)
+
+
+def _unit(vector: Triple) -> Triple:
+    size = hypot(*vector) or 1.0
+    return _triple([part / size for part in vector])

@@ -27,7 +27,7 @@ from polhode.view._quantities import (
 )
 from polhode.view._scene import Link, MotionSummary, Pose, Scene, SceneBody, Support, Trace, Triple
 from polhode.view._scene_along import constants, vectors
-from polhode.view._scene_bodies import arrows_of, bodies_of, joints_of, links_of
+from polhode.view._scene_bodies import angles_of, arrows_of, bodies_of, joints_of, links_of
 from polhode.view._scene_supports import supports_of
 from polhode.view._scene_text import (
     POINTS,
@@ -43,7 +43,8 @@ from polhode.view._scene_text import (
 # The page interpolates linearly between frames: over 0.12 rad a chord departs from its circle by
 # angle²/8, 0.2 % of the radius. The number of frames bounds the size of the page.
 _TURN = 0.12  # largest angle between two frames, rad
-_LEAST, _MOST = 2000, 3600  # frames, for one body
+_LEAST, _MOST = 2000, 3200  # frames, for one body
+_BLURRED = 2200  # frames for one body that turns too fast even for the most
 _FEWEST = 600  # frames at least, for any number of bodies
 _COARSE = 601  # instants at which the angular velocity is sampled
 _BEYOND = 1.1  # distance of the end of an axis that leaves a trace, in reaches of its body
@@ -139,6 +140,7 @@ def scenery(
         links=links,
         supports=supports,
         arrows=arrows_of(run, t, magnitudes_of(run)),
+        angles=angles_of(run, t),
         traces=(*traces, *other_traces(bodies)),
         origin=made_with(run),
     )
@@ -162,8 +164,8 @@ def frames_of(run: Trajectory) -> int:
             advice="shorten it, or check the sizes of the parameters and start values",
         )
     wanted = ceil(run.duration * fastest / _TURN)
-    most = max(_MOST // len(system.bodies), _FEWEST)
-    return 1 + min(max(wanted, _LEAST), most)
+    enough = max(wanted, _LEAST) if wanted <= _MOST else _BLURRED
+    return 1 + min(enough, max(_MOST // len(system.bodies), _FEWEST))
 
 
 def _fastest_turn(run: Trajectory, body: Body, t: Array) -> float:

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from polhode.view._html import Markup, json_element, tag
-from polhode.view._page import digest, front_end, page_of, policy
+from polhode.view._packed import packed_scene
+from polhode.view._page import digest, front_end, page_of, policy, scene_element
 from polhode.view._scene import Scene
 
 
@@ -39,12 +40,12 @@ def scene_frame(scenes: Mapping[str, Scene]) -> SceneFrame:
     first = next(iter(scenes.values()))
     # All pages of scenes are the same but for the element with the scene, and their title.
     page = page_of(first)
-    before, after = page.split(json_element("scene", first.as_json()))
+    before, after = page.split(scene_element(first))
     player = {"before": re.sub("<title>.*?</title>", "", before, flags=re.DOTALL), "after": after}
     # A frame made from text inherits the policy of its page, so both scripts are named.
     scripts = f"{digest(script)} {digest(front_end('page.js'))}"
     body = (
-        json_element("scenes", {name: scene.as_json() for name, scene in scenes.items()}),
+        json_element("scenes", {name: packed_scene(scene) for name, scene in scenes.items()}),
         json_element("player", player),
         tag("script", Markup(script)),
     )

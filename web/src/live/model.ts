@@ -37,6 +37,7 @@ export interface DrawnBody {
   spin: number | null;
   axis: Outputs | null;
   arms: Outputs[];
+  labels: string[];
 }
 
 export interface DrawnContact {
@@ -71,6 +72,15 @@ export interface DrawnArrow {
   unit: string;
   foot: Outputs | null;
   along: Outputs | null;
+  normal: Outputs | null;
+  friction: Outputs | null;
+}
+
+export interface DrawnAngles {
+  name: string;
+  body: number;
+  vertex: Outputs;
+  rotations: { symbol: string; angle: number; axis: Outputs; begin: Outputs; offset: number }[];
 }
 
 export interface Drawn {
@@ -80,6 +90,7 @@ export interface Drawn {
   links: { kind: string; name: string; start: Outputs; end: Outputs }[];
   contacts: DrawnContact[];
   arrows: DrawnArrow[];
+  angles: DrawnAngles[];
   panels: { unit: string; series: { name: string; symbol: string; value: number }[] }[];
   energy: Outputs;
 }

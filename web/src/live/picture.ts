@@ -2,7 +2,7 @@
 
 import { digits } from "../dom";
 import { reach } from "../reach";
-import type { ArrowKind, ArrowData, BodyData, LinkData, NumberData, Packed, PanelData, PoseData, SceneData, SupportData, TraceData, Triple } from "../scene";
+import type { AnglesData, ArrowKind, ArrowData, BodyData, LinkData, NumberData, Packed, PanelData, PoseData, SceneData, SupportData, TraceData, Triple } from "../scene";
 import type { DrawnArrow, DrawnBody, DrawnContact, Grid, LiveData } from "./model";
 import type { Engine, Motion } from "./motion";
 import { shapeOf } from "./shape_rules";
@@ -10,7 +10,7 @@ import { product, quaternions, rolled, turned } from "./turns";
 import { scaleFor } from "./units";
 
 /** What a computed motion replaces in the scene that the page opens with. */
-export type Computed = Pick<SceneData, "duration" | "frames" | "up" | "floor" | "bodies" | "joints" | "links" | "supports" | "arrows" | "traces" | "panels" | "evidence" | "happenings" | "modes" | "doubt">;
+export type Computed = Pick<SceneData, "duration" | "frames" | "up" | "floor" | "bodies" | "joints" | "links" | "supports" | "arrows" | "angles" | "traces" | "panels" | "evidence" | "happenings" | "modes" | "doubt">;
 
 const STILL = 1e-9; // relative spread below which rows count as equal
 const POINT = 0.07; // radius of a particle against the reach of the whole
@@ -45,6 +45,7 @@ export function pictured(live: LiveData, engine: Engine, motion: Motion): Comput
     links,
     supports,
     arrows: arrowsOf(drawn.arrows, motion),
+    angles: drawn.angles.map((angles) => angled(angles, motion)),
     traces: [...contacts.flatMap((contact) => contact.traces()), ...bodies.flatMap(pathsOf)],
     panels: drawn.panels.map((panel) => panelled(panel, motion)),
     evidence: [imbalance],
@@ -90,7 +91,7 @@ function row(data: Packed, frame: number): Float32Array {
 function bodied(body: DrawnBody, motion: Motion): BodyData {
   const shape = shapeOf(body.rule, motion.constants(body.numbers), body.position);
   const arms = body.arms.map((arm) => motion.constants(arm) as Triple);
-  return { name: body.name, shape, pose: posed(body, motion), arms };
+  return { name: body.name, shape, pose: posed(body, motion), arms, labels: body.labels };
 }
 
 function posed(body: DrawnBody, motion: Motion): PoseData {
@@ -255,16 +256,51 @@ function arrowsOf(arrows: DrawnArrow[], motion: Motion): ArrowData[] {
   arrows.forEach(({ unit }, i) => {
     sizes[unit] = Math.max(sizes[unit] ?? 0, largestOf(rows[i]));
   });
-  const found = arrows.map(({ kind, name, symbol, body, unit, foot }, i): ArrowData => {
+  const found = arrows.map(({ kind, name, symbol, body, unit, foot, normal, friction }, i): ArrowData => {
     const shown = rows[i].map((part) => (Math.abs(part) < ROUNDING * sizes[unit] ? 0 : part));
     const lengths = lengthsOf(shown).sort();
     const usual = lengths[Math.floor(USUAL * (lengths.length - 1))];
-    const begins: Packed = foot ? collapsed(motion.rows(foot), 3) : { shape: [0, 3], float32: new Float32Array(0) };
-    return { kind: kind as ArrowKind, name, symbol, body, unit, foot: begins, along: collapsed(shown, 3), usual, largest: lengths[lengths.length - 1] };
+    return {
+      kind: kind as ArrowKind,
+      name,
+      symbol,
+      body,
+      unit,
+      foot: orNowhere(foot, motion),
+      along: collapsed(shown, 3),
+      usual,
+      largest: lengths[lengths.length - 1],
+      normal: orNowhere(normal, motion),
+      friction: friction ? motion.constants(friction)[0] : 0,
+    };
   });
   const longest: Record<string, number> = {};
   for (const { kind, largest } of found) longest[kind] = Math.max(longest[kind] ?? 0, largest);
   return found.filter(({ kind, largest }) => largest > UNSEEN * longest[kind]);
+}
+
+function orNowhere(vector: number[] | null, motion: Motion): Packed {
+  return vector ? collapsed(motion.rows(vector), 3) : { shape: [0, 3], float32: new Float32Array(0) };
+}
+
+function angled({ name, body, vertex, rotations }: LiveData["drawn"]["angles"][number], motion: Motion): AnglesData {
+  return {
+    name,
+    body,
+    vertex: collapsed(motion.rows(vertex), 3),
+    rotations: rotations.map(({ symbol, angle, axis, begin, offset }) => ({
+      symbol,
+      angle: collapsed(motion.column(angle), 1),
+      axis: motion.constants(axis) as Triple,
+      begin: unit(motion.constants(begin)),
+      offset: motion.constants([offset])[0],
+    })),
+  };
+}
+
+function unit(vector: number[]): Triple {
+  const size = Math.hypot(...vector) || 1;
+  return vector.map((part) => part / size) as Triple;
 }
 
 function panelled({ unit, series }: LiveData["drawn"]["panels"][number], motion: Motion): PanelData {
