@@ -1,7 +1,7 @@
 // Bundles the front end, scripts and style sheets for pages, frames, the lab and the worker of live pages: node build.mjs FOLDER
 import { build } from "esbuild";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
-import { join, resolve } from "node:path";
+import { dirname, join, resolve } from "node:path";
 
 const folder = process.argv[2] ?? "built";
 const BUNDLED = ["three", "uplot"];
@@ -17,6 +17,20 @@ const MATERIALS = [
   "src/renderers/webgl/WebGLProgram.js",
   "examples/jsm/lines/LineMaterial.js",
 ];
+
+// what the renderer has for headsets and for surroundings that are mirrored, of which it asks here no more than this
+const ABSENT = {
+  "renderers/webxr/WebXRManager.js": `
+    import { EventDispatcher } from "../../core/EventDispatcher.js";
+    export class WebXRManager extends EventDispatcher {
+      enabled = false;
+      isPresenting = false;
+      setAnimationLoop() {}
+      getEnvironmentBlendMode() {}
+      dispose() {}
+    }`,
+  "extras/PMREMGenerator.js": "export class PMREMGenerator {}",
+};
 
 await mkdir(folder, { recursive: true });
 await build({
@@ -34,10 +48,14 @@ await build({
 const licences = await Promise.all(BUNDLED.map(licence));
 await writeFile(join(folder, "LICENSES.txt"), licences.join("\n"));
 
-/** Bundle three from its sources, without the programs of materials that no page has. */
+/** Bundle three from its sources, without the programs of materials that no page has, and without what is absent. */
 async function lean(bundle) {
   const used = await included(MATERIALS.map((path) => join(THREE, path)));
   bundle.onResolve({ filter: /^three$/ }, () => ({ path: join(THREE, "src/Three.js"), sideEffects: false }));
+  bundle.onLoad({ filter: /(WebXRManager|PMREMGenerator)\.js$/ }, ({ path }) => {
+    const name = Object.keys(ABSENT).find((end) => path.endsWith(end));
+    return { contents: ABSENT[name], resolveDir: dirname(path) };
+  });
   bundle.onLoad({ filter: /\.glsl\.js$/ }, async ({ path }) => {
     const text = await readFile(path, "utf8");
     const kept = used.has(path) ? text.replace(/\/\*[^]*?\*\/|\/\/.*$/gm, "").replace(/\s*\n\s*/g, "\n") : text.replace(/`[^`]*`/g, '""');

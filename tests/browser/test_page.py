@@ -119,7 +119,7 @@ def test_the_numbers_at_an_axis_differ(opened, tmp_path, swing):
         ]
         assert len(ticks) >= 2
         assert len(set(ticks)) == len(ticks)
-        page.page.locator(".plot").screenshot(path=tmp_path / "plot.png")
+        page.page.locator(".plots > .plot").screenshot(path=tmp_path / "plot.png")
 
 
 @pytest.mark.parametrize("viewport", [SMALL, PHONE])
@@ -173,12 +173,14 @@ def test_keys_do_what_buttons_do(disk):
 
 def test_every_control_is_reached_by_the_keyboard(disk):
     page = disk.page
-    wanted = page.locator("button, select, input, .picture").count()
+    controls = "button, select, input, .picture, .u-over"
+    place = f"[...document.querySelectorAll('{controls}')].indexOf(document.activeElement)"
+    wanted = page.locator(controls).count()
     reached = set()
     for _ in range(wanted + 2):
         page.keyboard.press("Tab")
-        reached.add(page.evaluate("document.activeElement.outerHTML.slice(0, 200)"))
-    assert len(reached - {page.evaluate("document.body.outerHTML.slice(0, 200)")}) >= wanted
+        reached.add(page.evaluate(place))
+    assert reached >= set(range(wanted))
 
 
 def test_the_view_turns_and_zooms(disk, tmp_path):
@@ -243,7 +245,7 @@ def test_a_swipe_scrolls_the_page_until_the_picture_is_tapped(opened, written):
 def test_a_constant_is_drawn_level_though_its_last_digits_differ(opened, written):
     """The energy of the compass in the frame of the turning Earth varies by 2·10⁻⁸ of itself."""
     with opened(written("gyrocompass")) as shown:
-        plot = shown.page.locator(".plot").last
+        plot = shown.page.locator(".plots > .plot").last
         pixels = shown.picture_of(plot.locator("canvas"))
         beside_cursor = pixels[:, pixels.shape[1] // 2 :]
         line = np.argwhere((beside_cursor[..., 2] - beside_cursor[..., 0]) > 100)
@@ -312,6 +314,69 @@ def test_a_contact_force_has_its_parts_and_a_scale(opened, tmp_path):
         assert letters(shown).keys() >= {"N", "f", "F"}
         assert shown.page.locator(".scales > div:visible").all_inner_texts() == ["0.5 N"]
         assert shown.complaints == []
+
+
+def test_fast_cycles_are_an_envelope_until_there_is_room_for_their_line(opened, written):
+    with opened(written("rolling-disk")) as shown:
+        inset = shown.page.locator(".plot").first.locator(".inset")
+        assert inset.is_visible()
+        drawn = inset.locator("path").get_attribute("d")
+        shown.page.get_by_role("slider", name="Time").fill("1013")
+        assert inset.locator("path").get_attribute("d") != drawn
+        closer = shown.page.get_by_role("button", name="Plots: zoom in")
+        for _ in range(4):
+            closer.click()
+        assert not inset.is_visible()
+        shown.page.get_by_role("button", name="Plots: the whole motion").click()
+        assert inset.is_visible()
+        assert shown.complaints == []
+
+
+def cursor(shown):
+    """Where the present time is across the first plot, from 0 to 1."""
+    now, plot = (
+        shown.page.locator(f".plot {part}").first.bounding_box() for part in (".now", ".u-over")
+    )
+    return (now["x"] + now["width"] / 2 - plot["x"]) / plot["width"]
+
+
+def test_plots_are_zoomed_by_wheel_and_keys_and_follow_the_time(opened, written):
+    with opened(written("gyroscope")) as shown:
+        slider = shown.page.get_by_role("slider", name="Time")
+        slider.fill("500")
+        plot = shown.page.locator(".plot .u-over").first
+        plot.scroll_into_view_if_needed()
+        assert cursor(shown) == pytest.approx(0.25, abs=0.01)
+        before = shown.page.evaluate("scrollY")
+        plot.focus()
+        box = plot.bounding_box()
+        # the time under the pointer stays there
+        shown.page.mouse.move(box["x"] + 0.25 * box["width"], box["y"] + box["height"] / 2)
+        shown.page.mouse.wheel(0, -300)
+        shown.page.wait_for_timeout(100)
+        assert cursor(shown) == pytest.approx(0.25, abs=0.02)
+        assert shown.page.evaluate("scrollY") == before
+        plot.press("-")
+        plot.press("0")
+        assert cursor(shown) == pytest.approx(0.25, abs=0.01)
+        for _ in range(3):
+            plot.press("+")
+        slider.fill("1900")
+        assert 0 < cursor(shown) < 1
+        assert shown.complaints == []
+
+
+def test_portraits_have_the_present_time(opened, written):
+    with opened(written("gyroscope")) as shown:
+        portraits = shown.page.locator(".portrait")
+        titles = portraits.locator("figcaption > span:first-child").all_inner_texts()
+        assert titles == ["effective potential", "phase portrait", "axis of gyroscope"]
+        dots = portraits.locator(".dot")
+        before = [dots.nth(i).bounding_box() for i in range(3)]
+        shown.page.get_by_role("slider", name="Time").fill("77")
+        after = [dots.nth(i).bounding_box() for i in range(3)]
+        assert all(one != other for one, other in zip(before, after, strict=True))
+        assert "NaN" not in portraits.first.evaluate("e => e.parentElement.innerHTML")
 
 
 def test_conserved_quantities_have_letters(opened, tmp_path):

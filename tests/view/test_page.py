@@ -69,7 +69,7 @@ def disk(run_of):
 
 @given(st.data())
 def test_numbers_are_packed_without_loss(disk, data):
-    """But for arrows, of which 16 binary digits are kept."""
+    """But for arrows, of which 14 binary digits are kept."""
     shapes = array_shapes(min_dims=1, max_dims=3, min_side=0, max_side=7)
     bits = [data.draw(arrays("<u4", data.draw(shapes))) for _ in range(3)]
     sent = replace(disk, origin={"sent": [b.view("<f4") for b in (*bits, bits[0])]})
@@ -77,7 +77,7 @@ def test_numbers_are_packed_without_loss(disk, data):
     for one, came in zip((*bits, bits[0]), found["origin"]["sent"], strict=True):
         assert np.array_equal(came.view("<u4"), one)
     for arrow, came in zip(disk.arrows, found["arrows"], strict=True):
-        assert np.allclose(came["along"], arrow.along, rtol=2**-16, atol=0)
+        assert np.allclose(came["along"], arrow.along, rtol=2**-14, atol=0)
 
 
 def test_all_that_is_in_a_scene_is_in_its_page(disk):

@@ -239,7 +239,9 @@ def test_panels_hold_what_was_requested(run_of):
     assert [series.name for series in theta.series] == ["theta"]
     assert theta.unit == "deg"
     assert theta.series[0].values[0] == pytest.approx(80)
-    assert [series.name for series in energy.series] == ["energy"]
+    assert energy.kind == "energies"
+    names = ["energy", "kinetic energy", "potential energy"]
+    assert [series.name for series in energy.series] == names
     with pytest.raises(DeclarationError, match="nonsense"):
         ph.scene(run_of("rolling-disk"), plots=[["nonsense"]])
 

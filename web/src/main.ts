@@ -12,6 +12,7 @@ import { make, painted } from "./dom";
 import { Plots } from "./plots";
 import { unpacked } from "./packed";
 import type { SceneData } from "./scene";
+import { Portraits } from "./portraits";
 import { Stage } from "./stage";
 import { modeStrip } from "./strip";
 import { footer, heading, judgements, sections } from "./text";
@@ -42,6 +43,9 @@ function show(scene: SceneData): void {
     }
     const drawn = new Plots(plots);
     drawn.show(scene.panels, clock);
+    const portraits = new Portraits();
+    portraits.show(scene.portraits, scene.bodies, clock);
+    plots.append(portraits.element);
     dark.addEventListener("change", () => drawn.theme());
     document.body.dataset.ready = "yes";
   });

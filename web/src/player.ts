@@ -6,7 +6,8 @@ import { keys, switches, transport } from "./controls";
 import { NoWebGL } from "./display";
 import { make } from "./dom";
 import { Plots } from "./plots";
-import type { AccountData, SceneData } from "./scene";
+import { Portraits } from "./portraits";
+import type { AccountData, BodyData, SceneData } from "./scene";
 import { Stage } from "./stage";
 import { modeStrip } from "./strip";
 
@@ -16,9 +17,11 @@ export class Player {
   readonly theatre = make("section", { class: "theatre", "aria-label": "Motion" }, this.picture);
   readonly plots = make("section", { class: "plots", "aria-label": "Plots against time" });
   private readonly drawn = new Plots(this.plots);
+  private readonly portraits = new Portraits();
   stage: Stage | null = null;
   clock: Clock | null = null;
   private system = "";
+  private bodies: BodyData[] = [];
   private listening = new AbortController();
   private blind = false;
   private resumes = false;
@@ -36,6 +39,7 @@ export class Player {
   show(scene: SceneData, system: string): void {
     const same = system === this.system;
     this.system = system;
+    this.bodies = scene.bodies;
     this.setOutdated(false);
     const clock = this.follower(scene, same);
     if (this.resumes && same) clock.play();
@@ -71,9 +75,11 @@ export class Player {
   }
 
   /** Plots and contact modes of the present motion. */
-  plot({ panels, modes }: Pick<AccountData, "panels" | "modes">): void {
+  plot({ panels, portraits, modes }: Pick<AccountData, "panels" | "portraits" | "modes">): void {
     if (!this.clock) return;
     this.drawn.show(panels, this.clock);
+    this.portraits.show(portraits, this.bodies, this.clock);
+    this.plots.append(this.portraits.element); // after the plots, also where those are new
     this.theatre.querySelector(".modes")?.remove();
     this.theatre.append(...modeStrip(modes, this.clock));
   }

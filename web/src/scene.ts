@@ -125,6 +125,7 @@ export interface TraceData {
 export interface PanelData {
   unit: string;
   series: { name: string; symbol: string; values: Packed }[];
+  kind: string;
 }
 
 export interface FormulaData {
@@ -158,6 +159,19 @@ export interface NoteData {
   formula: string;
 }
 
+export interface PortraitData {
+  kind: string;
+  title: string;
+  names: string[];
+  symbols: string[];
+  units: string[];
+  columns: Packed[];
+  curve: Packed[];
+  level: number;
+  body: number;
+  axis: Triple;
+}
+
 /** A stay in a contact mode. */
 export interface ModeSpan {
   name: string;
@@ -168,6 +182,7 @@ export interface ModeSpan {
 /** The readable part of a motion: curves, formulas and numbers. */
 export interface AccountData {
   panels: PanelData[];
+  portraits: PortraitData[];
   motion: FormulaData[];
   reactions: FormulaData[];
   parameters: NumberData[];

@@ -53,10 +53,12 @@ from polhode.view._drawn import (
     turning_of,
 )
 from polhode.view._drawn_angles import angles_in
+from polhode.view._drawn_portraits import portraits_in
 from polhode.view._quantities import Array, equations_of, quantity
 from polhode.view._scene import Scene
 from polhode.view._scene_build import frames_of, up_of
 from polhode.view._scene_supports import patch_of
+from polhode.view._scene_text import ENERGIES, energies_of
 from polhode.view._shapes import source_of
 
 #: The texts that numbers were given as, by name: units of sliders, formulas of other parameters.
@@ -114,6 +116,12 @@ class _Outputs:
             return tuple(vector.express(equations.system.root).components)
 
         return self.meanings(components)
+
+    def columns(
+        self, in_mode: Callable[[Equations], Sequence[Expr] | None], count: int
+    ) -> list[int]:
+        """The numbers of so many expressions that are defined in some modes."""
+        return self.meanings(lambda equations: in_mode(equations) or (None,) * count)
 
     def constants(self, expressions: Sequence[Expr]) -> list[int]:
         """The numbers of expressions of parameters; none if a parameter has no value."""
@@ -360,6 +368,7 @@ def _drawn(
             for angles in angles_in(system)
         ],
         "panels": _panels(run, shown, outputs),
+        "portraits": _portraits(run, shown, outputs),
         "energy": outputs.meanings(energies),
     }
 
@@ -445,16 +454,37 @@ def _panels(run: Trajectory, shown: Scene, outputs: _Outputs) -> list[dict[str, 
             {"name": one.name, "symbol": one.symbol, "value": _plotted(run, one.name, outputs)}
             for one in panel.series
         ]
-        found.append({"unit": quantity(run, panel.series[0].name).unit, "series": series})
+        unit = quantity(run, panel.series[0].name).unit
+        found.append({"unit": unit, "series": series, "kind": panel.kind})
     return found
+
+
+def _portraits(run: Trajectory, shown: Scene, outputs: _Outputs) -> list[dict[str, Any]]:
+    """Those of the motion that the page opens with, but for its potential."""
+    present = {(one.kind, one.names, one.title) for one in shown.portraits}
+    return [
+        {
+            "kind": one.kind,
+            "title": one.title,
+            "names": one.names,
+            "symbols": one.symbols,
+            "units": one.units,
+            "values": [] if one.kind == "axis" else outputs.columns(one.values, len(one.names)),
+            "body": one.body,
+            "axis": one.axis,
+        }
+        for one in portraits_in(equations_of(run))
+        if (one.kind, one.names, one.title) in present
+    ]
 
 
 def _plotted(run: Trajectory, name: str, outputs: _Outputs) -> int:
     """The number of a quantity."""
 
     def meaning(equations: Equations) -> list[Expr | None]:
-        if name == "energy":
-            return [equations.energy]
+        if name in ENERGIES:
+            kinetic, potential = energies_of(equations)
+            return [{"E": equations.energy, "T": kinetic, "V": potential}[ENERGIES[name]]]
         if name in reactions:
             return [equations.components.get(name, Expr.of(0))]
         return [run.quantities[name]]

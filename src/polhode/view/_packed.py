@@ -15,6 +15,8 @@ import numpy as np
 from polhode.view._quantities import Array
 from polhode.view._scene import Scene, plain
 
+_DIGITS = 14  # binary digits of what is only drawn
+
 
 def packed(data: Mapping[str, Any]) -> str:
     """Data as compressed JSON in base64, which `unpacked` in web/src/packed.ts reads."""
@@ -24,7 +26,7 @@ def packed(data: Mapping[str, Any]) -> str:
 def packed_scene(shown: Scene) -> str:
     """A scene as compressed text: less than half as long as its numbers in base64.
 
-    Vectors that are drawn as arrows come with 16 binary digits, more than a page shows of them.
+    Arrows and portraits come with 14 binary digits, more than a page shows of them.
     An array becomes {"shape": [...], "steps": ...}, or {"shape": [...], "same": n} where it is
     equal to the one that is the n-th with steps.
     """
@@ -39,13 +41,16 @@ def packed_scene(shown: Scene) -> str:
         return {"steps": steps}
 
     arrows = tuple(replace(arrow, along=_rounded(arrow.along)) for arrow in shown.arrows)
-    return packed(plain(replace(shown, arrows=arrows), once))
+    portraits = tuple(
+        replace(portrait, columns=tuple(map(_rounded, portrait.columns)))
+        for portrait in shown.portraits
+    )
+    return packed(plain(replace(shown, arrows=arrows, portraits=portraits), once))
 
 
 def _rounded(values: Array) -> Array:
-    """To 16 binary digits."""
     mantissa, exponent = np.frexp(values)
-    rounded: Array = np.ldexp(np.round(np.ldexp(mantissa, 16)), exponent - 16)
+    rounded: Array = np.ldexp(np.round(np.ldexp(mantissa, _DIGITS)), exponent - _DIGITS)
     return rounded
 
 

@@ -261,10 +261,48 @@ class PlotSeries:
 
 @dataclass(frozen=True)
 class Panel:
-    """Quantities that share an axis."""
+    """Quantities that share an axis.
+
+    Attributes:
+        unit: of their values.
+        series: the quantities.
+        kind: lines, or energies: total, kinetic and potential energy, of which the kinetic one is
+            drawn as what the total has above the potential one.
+    """
 
     unit: str
     series: tuple[PlotSeries, ...]
+    kind: str = "lines"
+
+
+@dataclass(frozen=True)
+class Portrait:
+    """A motion against something other than time.
+
+    Attributes:
+        kind: plane (a curve); well (a curve at the height of `level`, over the potential
+            `curve`); sphere (directions on the unit sphere); or axis (those of an axis of a body).
+        title: what it shows, in words.
+        names: of its axes: published names of quantities in a plane, labels of directions.
+        symbols: MathML of them; empty where the names are the letters.
+        units: of the columns; empty on a sphere.
+        columns: values along the axes, at equally spaced instants from 0 to the duration.
+        curve: of a well, places and heights of its potential.
+        level: of a well, the energy.
+        body: of an axis, position of its body among the bodies, whose pose has its directions.
+        axis: unit vector along the axes of that body.
+    """
+
+    kind: str
+    title: str
+    names: tuple[str, ...]
+    symbols: tuple[str, ...] = ()
+    units: tuple[str, ...] = ()
+    columns: tuple[Array, ...] = ()
+    curve: tuple[Array, ...] = ()
+    level: float = 0.0
+    body: int = -1
+    axis: Triple = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -308,6 +346,7 @@ class MotionSummary:
     """What there is to read of a motion; see `Scene` for what each part is."""
 
     panels: tuple[Panel, ...]
+    portraits: tuple[Portrait, ...]
     motion: tuple[Formula, ...]
     reactions: tuple[Formula, ...]
     parameters: tuple[SceneNumber, ...]
@@ -330,7 +369,8 @@ class Scene(Shown):
         up: unit vector that is upright on the screen.
         floor: height of a faint floor beneath everything, m; None where a support is one.
         directions: names of the directions of the root frame; on the Earth with where they point.
-        bodies, joints, links, supports, arrows, angles, traces, panels: what is drawn.
+        bodies, joints, links, supports, arrows, angles, traces, panels, portraits: what is
+            drawn.
         motion, reactions: the equations.
         parameters, start: numbers it was made with.
         evidence: relative drift of conserved quantities.
@@ -356,6 +396,7 @@ class Scene(Shown):
     angles: tuple[Angles, ...]
     traces: tuple[Trace, ...]
     panels: tuple[Panel, ...] = ()
+    portraits: tuple[Portrait, ...] = ()
     motion: tuple[Formula, ...] = ()
     reactions: tuple[Formula, ...] = ()
     parameters: tuple[SceneNumber, ...] = ()

@@ -28,6 +28,7 @@ from polhode.view._quantities import (
 from polhode.view._scene import Link, MotionSummary, Pose, Scene, SceneBody, Support, Trace, Triple
 from polhode.view._scene_along import constants, vectors
 from polhode.view._scene_bodies import angles_of, arrows_of, bodies_of, joints_of, links_of
+from polhode.view._scene_portraits import portraits_of
 from polhode.view._scene_supports import supports_of
 from polhode.view._scene_text import (
     POINTS,
@@ -99,6 +100,7 @@ def account(
     sizes, equations = magnitudes_of(run), equations_shown(run)
     return MotionSummary(
         panels=panels_of(run, grouped(plots) or everything(run), sizes, points),
+        portraits=portraits_of(run, points),
         motion=equations.motion,
         reactions=equations.reactions,
         parameters=parameters_of(run, meanings or {}),

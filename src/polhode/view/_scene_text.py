@@ -26,13 +26,17 @@ from polhode.model import Slipping
 from polhode.simulate import Trajectory
 from polhode.view._magnitudes import Magnitudes, panels
 from polhode.view._mathml import Formula, equation, inline, listed, typeset
-from polhode.view._quantities import equations_of, largest, quantity, scale_for
+from polhode.view._quantities import Array, equations_of, largest, quantity, scale_for
 from polhode.view._scene import ModeSpan, Panel, PlotSeries, SceneEvent, SceneNumber
+from polhode.view._scene_along import along
 
 _EVENTS = 40  # listed at most
 _DEFINED = 80  # letters for long parts whose meanings are shown
 POINTS = 1501  # of a plotted curve
 _ENERGY = "energy"
+_VARIES = 1e-9  # of the largest energy: a potential one that varies by less is none to be shown
+#: Letters of the energies that are shown, by the names under which they are plotted.
+ENERGIES = {_ENERGY: "E", "kinetic energy": "T", "potential energy": "V"}
 
 
 def panels_of(
@@ -46,6 +50,9 @@ def panels_of(
     t = np.linspace(0.0, run.duration, points)
     found = []
     for names in (names for group in chosen for names in panels(run, group, sizes)):
+        if names == [_ENERGY] and (energies := _energies(run, t, sizes)):
+            found.append(energies)
+            continue
         unit = quantity(run, names[0]).unit
         values = [sizes.without_rounding(run.evaluate(name, t), unit) for name in names]
         scale = scale_for(unit, largest(*values))
@@ -57,9 +64,29 @@ def panels_of(
     return tuple(found)
 
 
+def _energies(run: Trajectory, t: Array, sizes: Magnitudes) -> Panel | None:
+    """Total, kinetic and potential energy; None where the potential one does not vary."""
+    kinetic, potential = along(run, energies_of, 2, t).T
+    rows = [sizes.without_rounding(row, "J") for row in (kinetic + potential, kinetic, potential)]
+    size = largest(*rows)
+    if not np.all(np.isfinite(rows)) or np.ptp(rows[2]) <= _VARIES * size:
+        return None
+    scale = scale_for("J", size)
+    series = (
+        PlotSeries(name, _letter(run, name), row * scale.factor)
+        for name, row in zip(ENERGIES, rows, strict=True)
+    )
+    return Panel(scale.unit, tuple(series), "energies")
+
+
+def energies_of(equations: Equations) -> tuple[Expr, Expr]:
+    """Kinetic and potential energy in a contact mode."""
+    return equations.kinetic_energy, equations.potential_energy
+
+
 def _letter(run: Trajectory, name: str) -> str:
-    if name == _ENERGY:
-        return inline(Expr.generator(Symbol("E")))
+    if name in ENERGIES:
+        return inline(Expr.generator(Symbol(ENERGIES[name])))
     expression = run.quantities[name]
     return inline(Expr.generator(expression.symbol or Symbol(name)))
 

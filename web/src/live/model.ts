@@ -1,6 +1,7 @@
 // What polhode writes into a live page besides the scene of the motion that it opens with;
 // documented at live_document in polhode.view.
 
+import type { Triple } from "../scene";
 import type { Control } from "../sliders";
 
 /** What the memory of a kernel holds at first, in base64 by address, and where to find what, in bytes. */
@@ -91,7 +92,8 @@ export interface Drawn {
   contacts: DrawnContact[];
   arrows: DrawnArrow[];
   angles: DrawnAngles[];
-  panels: { unit: string; series: { name: string; symbol: string; value: number }[] }[];
+  panels: { unit: string; series: { name: string; symbol: string; value: number }[]; kind: string }[];
+  portraits: { kind: string; title: string; names: string[]; symbols: string[]; units: string[]; values: Outputs; body: number; axis: Triple }[];
   energy: Outputs;
 }
 

@@ -2,7 +2,7 @@
 
 import { digits } from "../dom";
 import { reach } from "../reach";
-import type { AnglesData, ArrowKind, ArrowData, BodyData, LinkData, NumberData, Packed, PanelData, PoseData, SceneData, SupportData, TraceData, Triple } from "../scene";
+import type { AnglesData, ArrowKind, ArrowData, BodyData, LinkData, NumberData, Packed, PanelData, PortraitData, PoseData, SceneData, SupportData, TraceData, Triple } from "../scene";
 import type { DrawnArrow, DrawnBody, DrawnContact, Grid, LiveData } from "./model";
 import type { Engine, Motion } from "./motion";
 import { shapeOf } from "./shape_rules";
@@ -10,7 +10,7 @@ import { product, quaternions, rolled, turned } from "./turns";
 import { scaleFor } from "./units";
 
 /** What a computed motion replaces in the scene that the page opens with. */
-export type Computed = Pick<SceneData, "duration" | "frames" | "up" | "floor" | "bodies" | "joints" | "links" | "supports" | "arrows" | "angles" | "traces" | "panels" | "evidence" | "happenings" | "modes" | "doubt">;
+export type Computed = Pick<SceneData, "duration" | "frames" | "up" | "floor" | "bodies" | "joints" | "links" | "supports" | "arrows" | "angles" | "traces" | "panels" | "portraits" | "evidence" | "happenings" | "modes" | "doubt">;
 
 const STILL = 1e-9; // relative spread below which rows count as equal
 const POINT = 0.07; // radius of a particle against the reach of the whole
@@ -48,6 +48,7 @@ export function pictured(live: LiveData, engine: Engine, motion: Motion): Comput
     angles: drawn.angles.map((angles) => angled(angles, motion)),
     traces: [...contacts.flatMap((contact) => contact.traces()), ...bodies.flatMap(pathsOf)],
     panels: drawn.panels.map((panel) => panelled(panel, motion)),
+    portraits: drawn.portraits.map((portrait) => portrayed(portrait, motion)),
     evidence: [imbalance],
     doubt: doubtAbout(imbalance.value, motion.steps),
     modes: motion.modes,
@@ -303,17 +304,35 @@ function unit(vector: number[]): Triple {
   return vector.map((part) => part / size) as Triple;
 }
 
-function panelled({ unit, series }: LiveData["drawn"]["panels"][number], motion: Motion): PanelData {
+function panelled({ unit, series, kind }: LiveData["drawn"]["panels"][number], motion: Motion): PanelData {
   const values = series.map(({ value }) => motion.column(value));
   const largest = Math.max(...values.map(largestOf));
   const scale = scaleFor(unit, largest);
   return {
     unit: scale.unit,
+    kind,
     series: series.map(({ name, symbol }, i) => ({
       name,
       symbol,
       values: packed(values[i].map((value) => (Math.abs(value) < ROUNDING * largest ? 0 : value * scale.factor)), 1),
     })),
+  };
+}
+
+function portrayed({ kind, title, names, symbols, units, values, body, axis }: LiveData["drawn"]["portraits"][number], motion: Motion): PortraitData {
+  const columns = values.map((value) => motion.column(value));
+  const scales = units.map((unit, i) => scaleFor(unit, largestOf(columns[i])));
+  return {
+    kind,
+    title,
+    names,
+    symbols,
+    units: scales.map(({ unit }) => unit),
+    columns: columns.map((column, i) => packed(scales.length ? column.map((value) => value * scales[i].factor) : column, 1)),
+    curve: [],
+    level: 0,
+    body,
+    axis,
   };
 }
 

@@ -10,7 +10,15 @@ from polhode.algebra import Expr, Symbol, arrays, compile_program
 from polhode.analyse import LinearIntegrals, linear_integrals, reduced
 from polhode.base import PURE, DeclarationError, to_si
 from polhode.simulate import Trajectory
-from polhode.view._quantities import Array, equations_of, instants, quantity, scale_for
+from polhode.view._quantities import (
+    Array,
+    Scale,
+    equations_of,
+    instants,
+    largest,
+    quantity,
+    scale_for,
+)
 from polhode.view.figures._figure import Drawn, axes_or_new
 from polhode.view.figures._history import legend_above
 from polhode.view.figures._style import COLOURS, FAINT, MUTED, house_style
@@ -44,15 +52,16 @@ def effective_potential(
         DeclarationError: for a system whose energy changes, or that does not reduce to one tilt.
     """
     axes = axes_or_new(ax, 3.0)
-    tilt = _tilt(run)
-    angles = _range(run, tilt, between)
+    tilt = tilt_of(run)
+    angles = angles_about(run, tilt, between)
     heights, energy = potential(run, angles), float(run["energy"][0])
     scale = scale_for("J", max(abs(energy), float(np.min(np.abs(heights)))))
-    shown, curve, level = np.degrees(angles), heights * scale.factor, energy * scale.factor
+    along = tilt_scale(run, tilt)
+    shown, curve, level = angles * along.factor, heights * scale.factor, energy * scale.factor
     (line,) = axes.plot(shown, curve, color=COLOURS[0], label=r"$V_{\rm eff}$")
     axes.axhline(level, color=COLOURS[1], linestyle=(0, (5, 1.6)), label="energy")
     axes.fill_between(shown, curve, level, where=curve <= level, color=FAINT, zorder=0)
-    for turn in np.degrees(turning_points(angles, heights, energy)):
+    for turn in turning_points(angles, heights, energy) * along.factor:
         axes.axvline(turn, color=MUTED, linewidth=0.6, linestyle=(0, (2, 2)))
         axes.plot(turn, level, "o", color=COLOURS[1], zorder=3)
     # The axes show the well, not the walls beside it.
@@ -60,7 +69,7 @@ def effective_potential(
     rise = max(level - bottom, 1e-3 * (top - bottom))
     top = min(top, bottom + _HIGH * rise)
     axes.set_ylim(bottom - 0.08 * (top - bottom), top)
-    axes.set_xlabel(f"{quantity(run, tilt.published).symbol} (deg)")
+    axes.set_xlabel(quantity(run, tilt.published).label(along))
     axes.set_ylabel(f"energy ({scale.unit})")
     legend_above(axes)
     return Drawn(axes, [line])
@@ -68,7 +77,7 @@ def effective_potential(
 
 def potential(run: Trajectory, angles: Array) -> Array:
     """Effective potential at ascending tilts, rad; J."""
-    equations, tilt = equations_of(run), _tilt(run)
+    equations, tilt = equations_of(run), tilt_of(run)
     found = linear_integrals(equations)
     moving = found.speeds if found is not None else ()
     still = equations.energy.subs({tilt.derivative(): Expr.of(0)})
@@ -108,8 +117,12 @@ def turning_points(angles: Array, heights: Array, energy: float) -> Array:
     return crossings
 
 
-def _tilt(run: Trajectory) -> Symbol:
-    """The one coordinate that the motion reduces to."""
+def tilt_of(run: Trajectory) -> Symbol:
+    """The one coordinate that the motion reduces to.
+
+    Raises:
+        DeclarationError: for a system whose energy changes, or that does not reduce to one tilt.
+    """
     equations = equations_of(run)
     if equations.rate(equations.energy):
         raise _refused(run, "a system whose energy is conserved")
@@ -129,15 +142,24 @@ def _refused(run: Trajectory, expected: str) -> DeclarationError:
     return DeclarationError(f"{run.system.name} has no effective potential", expected=expected)
 
 
-def _range(run: Trajectory, tilt: Symbol, between: tuple[str, str] | None) -> Array:
+def angles_about(run: Trajectory, tilt: Symbol, between: tuple[str, str] | None = None) -> Array:
+    """Tilts to draw: those between two, or a little beyond the motion's own, rad."""
     if between is not None:
         low, high = (to_si(end, PURE, tilt.published) for end in between)
         return np.linspace(low, high, _POINTS)
     own = run.evaluate(tilt.published, instants(run))
     low, high = float(np.min(own)), float(np.max(own))
-    beside = max(_BESIDE * (high - low), _STILL)
+    is_angle = quantity(run, tilt.published).unit == "rad"
+    beside = max(_BESIDE * (high - low), _STILL if is_angle else 0.0)
     low, high = low - beside, high + beside
-    if linear_integrals(equations_of(run)) is not None:  # singular where sin θ changes its sign
+    # singular where sin θ changes its sign
+    if is_angle and linear_integrals(equations_of(run)) is not None:
         below = np.floor((low + beside) / np.pi) * np.pi
         low, high = max(low, below + _CLEAR), min(high, below + np.pi - _CLEAR)
     return np.linspace(low, high, _POINTS)
+
+
+def tilt_scale(run: Trajectory, tilt: Symbol) -> Scale:
+    """What the tilt is shown in: degrees, or metres where it is a distance."""
+    named = quantity(run, tilt.published)
+    return scale_for(named.unit, largest(run.evaluate(tilt.published, instants(run))))
