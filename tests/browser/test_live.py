@@ -1,5 +1,7 @@
 """Live pages in a browser: sliders run the physics, offline, and what the page saves is exact."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -136,6 +138,75 @@ def test_the_link_holds_the_motion(opened, live, disk):
         assert other.complaints == []
 
 
+def test_the_link_holds_how_the_motion_is_seen(opened, live, disk):
+    page = disk.page
+    for name in ("angular velocity", "Angles"):
+        page.get_by_role("button", name=name).first.click()
+    page.locator(".picture").focus()
+    for _ in range(5):
+        page.keyboard.press("ArrowLeft")
+    page.get_by_role("button", name="Copy link").click()
+    camera = "() => document.querySelector('.picture canvas').camera.position.toArray()"
+    seen, address = page.evaluate(camera), page.url
+    page.get_by_role("button", name="Angles").click()
+    page.get_by_role("button", name="angular velocity").click()
+    file = live("rolling-disk", "--mu", "0.3", "--duration", "2s")
+    with opened(file) as other:
+        other.page.goto(address)
+        other.page.reload()
+        other.page.wait_for_selector("body[data-ready]")
+        settled(other)
+        assert other.page.evaluate(camera) == pytest.approx(seen, rel=1e-2)
+        pressed = other.page.locator(".switches [aria-pressed=true]").all_inner_texts()
+        assert any("ω" in text for text in pressed)
+        assert "Angles" not in pressed
+
+
+def test_the_letter_of_an_angle_is_dragged_to_another_start(opened, live):
+    with opened(live("gyroscope")) as shown:
+        settled(shown)
+        page = shown.page
+        letter = page.locator(".letter[data-coordinate=theta]").bounding_box()
+        x, y = letter["x"] + letter["width"] / 2, letter["y"] + letter["height"] / 2
+        page.mouse.move(x, y)
+        page.mouse.down()
+        for step in range(1, 6):
+            page.mouse.move(x + 6 * step, y + 4 * step)
+            page.wait_for_timeout(30)
+        page.mouse.up()
+        settled(shown)
+        start = page.locator("[data-name=theta] input[type=text]").input_value()
+        angle = float(start.removesuffix(" deg"))
+        assert 65 < angle < 150
+        assert angle * 2 == pytest.approx(round(angle * 2))  # half degrees
+        assert float(page.locator(".plot .value").first.inner_text()) == pytest.approx(angle)
+        # what was not dragged stays where it was, the view included
+        page.mouse.move(x + 200, y)
+        settled(shown)
+        field = page.locator("[data-name=theta] input[type=text]")
+        assert field.input_value() == start
+        assert shown.complaints == []
+
+
+def test_what_the_plots_show_is_played_again_and_again(disk):
+    page = disk.page
+    page.get_by_role("slider", name="Time").fill("0")
+    for _ in range(4):
+        page.get_by_role("button", name="Plots: zoom in").click()
+    page.get_by_role("button", name="loop").click()
+    page.get_by_label("Speed").select_option("1")
+    page.get_by_role("button", name="Play", exact=True).click()
+    times = []
+    for _ in range(25):
+        page.wait_for_timeout(40)
+        times.append(disk.time())
+    page.get_by_role("button", name="Pause").click()
+    page.get_by_role("button", name="loop").click()
+    page.get_by_role("button", name="Plots: the whole motion").click()
+    assert max(times) <= 2 / 16 + 0.01
+    assert any(later < earlier for earlier, later in pairwise(times))
+
+
 @pytest.mark.parametrize(
     ("fragment", "words"),
     [
@@ -146,6 +217,9 @@ def test_the_link_holds_the_motion(opened, live, disk):
         ("#system=rolling-disk&set=a%3D1e999", "cannot be read"),
         ("#system=rolling-disk&duration=1e9%20s", "duration"),
         ("#system=rolling-disk&run=rm", "run"),
+        ("#system=rolling-disk&view=1 2", "three numbers"),
+        ("#system=rolling-disk&view=1 2 NaN", "three numbers"),
+        ("#system=rolling-disk&view=1e9 0 0", "three numbers"),
         ("#nonsense", "no system"),
     ],
 )

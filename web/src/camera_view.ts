@@ -1,6 +1,6 @@
 // The view: around the middle of the motion, or following a body.
 
-import { type PerspectiveCamera, Plane, Quaternion, Raycaster, Sphere, Vector2, Vector3 } from "three";
+import { type PerspectiveCamera, Plane, Quaternion, type Ray, Raycaster, Sphere, Vector2, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Extent } from "./extent";
 import type { Display } from "./display";
@@ -104,12 +104,29 @@ export class CameraView {
 
   /** The point on the horizontal ground under a point of the screen, in the root frame; m. */
   groundAt(x: number, y: number): Triple | null {
+    const hit = this.sight(x, y).intersectPlane(new Plane(this.extent.up), this.place);
+    return hit && hit.toArray();
+  }
+
+  /** From where it looks, in reaches of the body about what it looks at. */
+  get from(): Triple {
+    const { reach } = this.extent;
+    return this.camera.position.clone().sub(this.controls.target).divideScalar(reach).toArray();
+  }
+
+  set from(offset: Triple) {
+    this.camera.position.set(...offset).multiplyScalar(this.extent.reach).add(this.controls.target);
+    this.controls.update();
+    this.moved();
+  }
+
+  /** The line of sight through a point of the screen. */
+  sight(x: number, y: number): Ray {
     const box = this.holder.getBoundingClientRect();
     const point = new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2);
-    const sight = new Raycaster();
-    sight.setFromCamera(point, this.camera);
-    const hit = sight.ray.intersectPlane(new Plane(this.extent.up), this.place);
-    return hit && hit.toArray();
+    const caster = new Raycaster();
+    caster.setFromCamera(point, this.camera);
+    return caster.ray;
   }
 
   /** Back to the initial view, as close as possible with everything in view. */

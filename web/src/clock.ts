@@ -5,6 +5,8 @@ type Listener = (clock: Clock) => void;
 export class Clock {
   time = 0;
   playing = false;
+  /** Instants between which it plays again and again; null for once to the end. */
+  loop: [number, number] | null = null;
   private last = 0;
   private readonly listeners: Listener[] = [];
 
@@ -51,6 +53,7 @@ export class Clock {
     if (!this.playing) return;
     this.time = Math.min(this.time + (Math.max(now - this.last, 0) / 1000) * this.rate, this.duration);
     this.last = now;
+    if (this.loop && this.time >= this.loop[1]) this.time = this.loop[0];
     if (this.time >= this.duration) this.playing = false;
     else requestAnimationFrame(this.step);
     this.tell();

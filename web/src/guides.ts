@@ -1,6 +1,6 @@
 // Thin lines that explain the picture: axes with their names, and the arcs of angles.
 
-import { CircleGeometry, Curve, CylinderGeometry, DoubleSide, Group, Matrix4, Mesh, MeshBasicMaterial, Object3D, Quaternion, TubeGeometry, Vector3 } from "three";
+import { CircleGeometry, Curve, CylinderGeometry, DoubleSide, Group, Matrix4, Mesh, MeshBasicMaterial, Object3D, Plane, Quaternion, type Ray, TubeGeometry, Vector3 } from "three";
 import { AXES, GREEK } from "./triad";
 import { Letter, type Letters } from "./letters";
 import type { Pose } from "./pose";
@@ -14,6 +14,7 @@ const NEAR = 0.62; // radius of the first arc at a point that holds the body, ag
 const AROUND = 1.12; // at its centre of mass
 const STEP = 0.13; // from one arc to the next
 const ARC = ["#b0206a", "#ff7db8"]; // by day and by night
+const EDGEWISE = 0.08; // sine of the angle between a plane and a line of sight below which they do not meet well
 const CLOSED = 0.02; // rad: a smaller angle is not drawn
 const LONG = 1.35; // of an axis of a body, against its size
 const LONGER = 1.75; // of an axis of the laboratory
@@ -86,9 +87,20 @@ export class AngleArcs extends Guide {
       if (!arc.isDrawn) return arc;
       drawn += 1;
       arc.letter = this.letter(rotation.symbol, "angle");
+      if (rotation.coordinate) arc.letter.element.dataset.coordinate = rotation.coordinate;
       this.object.add(arc.object);
       return arc;
     });
+  }
+
+  /** The present value of a coordinate with an arc, rad. */
+  valueOf(coordinate: string): number | null {
+    return this.arcs.find((arc) => arc.coordinate === coordinate)?.value ?? null;
+  }
+
+  /** The value of a coordinate whose arc would end under a line of sight; null where none does. */
+  valueAt(coordinate: string, sight: Ray): number | null {
+    return this.arcs.find((arc) => arc.coordinate === coordinate)?.valueAt(sight, this.object.position) ?? null;
   }
 
   theme(dark: boolean): void {
@@ -114,6 +126,8 @@ class Arc {
   private readonly begin: Vector3;
   private readonly parts: { tube: Mesh; sector: Mesh; spokes: [Object3D, Object3D] } | null = null;
   private readonly step = new Quaternion();
+  value = 0; // of its coordinate, rad
+  private readonly across: [Vector3, Vector3] = [new Vector3(), new Vector3()]; // in its plane: where it begins, and a right angle further
   private readonly basis = new Matrix4();
 
   constructor(
@@ -142,8 +156,24 @@ class Arc {
   /** Draw it after the rotations before it, and add its own to them. */
   update(frame: number, turn: Quaternion, vertex: Vector3): void {
     const [angle] = this.angle.at(frame, []);
+    this.value = this.data.sign * (angle - this.data.offset);
     if (this.parts) this.draw(angle - this.data.offset, turn, vertex, this.parts);
     turn.multiply(this.step.setFromAxisAngle(this.axis, angle));
+  }
+
+  /** The coordinate that it is; none for the arcs of other angles. */
+  get coordinate(): string {
+    return this.isDrawn ? this.data.coordinate : "";
+  }
+
+  /** Its coordinate, if it ended where a line of sight meets its plane; null where that is seen from its edge. */
+  valueAt(sight: Ray, vertex: Vector3): number | null {
+    const [x, y] = this.across;
+    const normal = x.clone().cross(y);
+    if (Math.abs(normal.dot(sight.direction)) < EDGEWISE) return null;
+    const hit = sight.intersectPlane(new Plane().setFromNormalAndCoplanarPoint(normal, vertex), new Vector3());
+    const from = hit?.sub(vertex);
+    return from ? this.data.sign * Math.atan2(from.dot(y), from.dot(x)) : null;
   }
 
   private turns(): number {
@@ -158,6 +188,8 @@ class Arc {
     const x = this.begin.clone().applyQuaternion(turn);
     const z = this.axis.clone().applyQuaternion(turn).multiplyScalar(side);
     const y = z.clone().cross(x);
+    this.across[0].copy(x);
+    this.across[1].copy(y).multiplyScalar(side);
     this.object.quaternion.setFromRotationMatrix(this.basis.makeBasis(x, y, z));
     const share = Math.abs(sweep) / (2 * Math.PI);
     this.object.visible = Math.abs(sweep) > CLOSED;

@@ -25,8 +25,16 @@ export class Plots {
   private clock: Clock | null = null;
   private readonly span = new Span(() => {
     for (const plot of this.plots) plot.stretch();
+    this.bound();
   });
-  private readonly zooming = this.span.buttons(() => this.clock?.time ?? 0);
+  private loops = false;
+  private readonly zooming = this.span.buttons(
+    () => this.clock?.time ?? 0,
+    (loops) => {
+      this.loops = loops;
+      this.bound();
+    },
+  );
   private readonly fitting = new ResizeObserver(() => {
     for (const plot of this.plots) plot.fit();
   });
@@ -44,10 +52,15 @@ export class Plots {
     if (kinds === this.kinds) this.plots.forEach((plot, i) => plot.renew(panels[i], clock));
     else this.replace(panels, clock);
     this.kinds = kinds;
+    this.bound();
     clock.onChange(({ time }) => {
-      this.span.follow(time);
+      if (!this.loops) this.span.follow(time);
       for (const plot of this.plots) plot.seek(time);
     });
+  }
+
+  private bound(): void {
+    if (this.clock) this.clock.loop = this.loops ? [this.span.begin, this.span.end] : null;
   }
 
   private replace(panels: PanelData[], clock: Clock): void {

@@ -106,6 +106,8 @@ export interface RotationData {
   axis: Triple;
   begin: Triple;
   offset: number;
+  coordinate: string;
+  sign: number;
 }
 
 export interface AnglesData {

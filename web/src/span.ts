@@ -64,8 +64,18 @@ export class Span {
     this.told();
   }
 
-  /** Buttons that zoom about the present time. */
-  buttons(now: () => number): HTMLElement {
+  /**
+   * Buttons that zoom about the present time, and one that makes it play what is shown again and again.
+   *
+   * @param loop told whether it is to.
+   */
+  buttons(now: () => number, loop: (loops: boolean) => void): HTMLElement {
+    const again = make("button", { type: "button", class: "switch", "aria-pressed": "false", title: "Play what the plots show again and again" }, "loop");
+    again.addEventListener("click", () => {
+      const loops = again.getAttribute("aria-pressed") !== "true";
+      again.setAttribute("aria-pressed", String(loops));
+      loop(loops);
+    });
     const button = (text: string, label: string, act: () => void): HTMLElement => {
       const made = make("button", { type: "button", class: "switch", "aria-label": label, title: label }, text);
       made.addEventListener("click", act);
@@ -77,6 +87,7 @@ export class Span {
       button("+", "Plots: zoom in", () => this.zoom(1 / STEP, this.nearest(now()))),
       button("−", "Plots: zoom out", () => this.zoom(STEP, this.nearest(now()))),
       button("whole", "Plots: the whole motion", () => this.whole()),
+      again,
     );
   }
 

@@ -40,7 +40,7 @@ export class Stage {
   private readonly triad: Triad;
   private readonly letters = new Letters();
   private readonly bars: ScaleBars;
-  private readonly angles: Guide[];
+  private readonly angles: AngleArcs[];
   private readonly axes: Guide[];
   private readonly components: Components[];
   private readonly plan: Plan;
@@ -208,6 +208,30 @@ export class Stage {
     this.refresh();
   }
 
+  /** The present value of a coordinate with an arc, rad. */
+  angleOf(coordinate: string): number | null {
+    return this.angles.reduce<number | null>((found, arcs) => found ?? arcs.valueOf(coordinate), null);
+  }
+
+  /** The value of a coordinate whose arc would end under a point of the screen; null where none does. */
+  angleAt(coordinate: string, x: number, y: number): number | null {
+    const sight = this.view.sight(x, y);
+    return this.angles.reduce<number | null>((found, arcs) => found ?? arcs.valueAt(coordinate, sight), null);
+  }
+
+  /** Everything that is switched on, by name. */
+  get switched(): string[] {
+    const extras = (Object.keys(this.extras) as Extra[]).filter((extra) => this.extras[extra]);
+    return [...this.kinds.filter((kind) => this.shows(kind)), ...extras, ...(this.traced ? ["traces"] : []), ...(this.view.follow ? ["follow"] : [])];
+  }
+
+  set switched(names: string[]) {
+    for (const kind of this.kinds) this.show(kind, names.includes(kind));
+    for (const extra of Object.keys(this.extras) as Extra[]) this.showExtra(extra, names.includes(extra));
+    this.showTraces(names.includes("traces"));
+    if (this.view.follow !== names.includes("follow")) this.setFollow(!this.view.follow);
+  }
+
   /** Whether there is anything of this sort to be shown. */
   has(extra: Extra): boolean {
     return this[extra].length > 0;
@@ -368,7 +392,7 @@ export class Stage {
     return arrows;
   }
 
-  private makeAngles(): Guide[] {
+  private makeAngles(): AngleArcs[] {
     return this.scene.angles.map((data) => {
       const vertex = new Vector3().fromArray(new Rows(data.vertex).at(0, []));
       const away = this.poses[data.body].placeAt(0, new Vector3()).distanceTo(vertex);

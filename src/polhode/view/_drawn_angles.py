@@ -29,6 +29,8 @@ class DrawnRotation:
         axis: by components along the directions before it or after it, in which they are equal.
         begin: direction from which the arc begins, along the directions before it.
         offset: of the angle, where the arc begins, rad.
+        coordinate: published name of the coordinate that the arc is; empty for other angles.
+        sign: 1, or -1 where the coordinate turns the other way round.
     """
 
     symbol: str
@@ -36,6 +38,8 @@ class DrawnRotation:
     axis: Row
     begin: Row
     offset: Expr
+    coordinate: str = ""
+    sign: int = 1
 
 
 @dataclass(frozen=True)
@@ -120,11 +124,16 @@ def _rotations(
     following: tuple[Row, ...] = ()
     for frame in reversed(_chain(axes)):
         offset = _offset(frame.angle)
-        symbol = "" if frame in drawn or offset is None else _letter(frame.angle - offset)
         at_zero = offset or ZERO
+        letter, sign = _lettered(frame.angle - at_zero)
+        is_drawn = frame not in drawn and offset is not None
+        symbol = inline(letter) if is_drawn else ""
+        coordinate = letter.symbol.published if is_drawn and letter.symbol else ""
         candidates = (*lettered, *unturned, *following, *_cyclic(frame.axis))
         begin = _rotated(_across(candidates, frame.axis), frame.axis, at_zero)
-        found.append(DrawnRotation(symbol, frame.angle, frame.axis, begin, at_zero))
+        found.append(
+            DrawnRotation(symbol, frame.angle, frame.axis, begin, at_zero, coordinate, sign)
+        )
         lettered = tuple(_rotated(mark, frame.axis, at_zero) for mark in lettered)
         following = (frame.axis,)
     return tuple(reversed(found))
@@ -162,11 +171,12 @@ def _offset(angle: Expr) -> Expr | None:
     return angle.subs({Expr.generator(letter): 0 for letter in letters})
 
 
-def _letter(angle: Expr) -> str:
-    """The letter of an angle, whichever way round it is counted."""
-    (first, *more) = angle.generators
-    letter = Expr.generator(first)
-    return inline(letter if not more and angle in (letter, -letter) else angle)
+def _lettered(angle: Expr) -> tuple[Expr, int]:
+    """What an angle is called, and its sign: one letter, whichever way round it is counted."""
+    letters = [Expr.generator(g) for g in angle.generators]
+    if len(letters) == 1 and angle in (letters[0], -letters[0]):
+        return letters[0], 1 if angle == letters[0] else -1
+    return angle, 1
 
 
 def _across(candidates: Sequence[Row], axis: Row) -> Row:

@@ -361,6 +361,8 @@ def _drawn(
                         "axis": outputs.numbers(rotation.axis),
                         "begin": outputs.numbers(rotation.begin),
                         "offset": outputs.numbers([rotation.offset])[0],
+                        "coordinate": rotation.coordinate,
+                        "sign": rotation.sign,
                     }
                     for rotation in angles.rotations
                 ],

@@ -204,7 +204,8 @@ def _rotation(run: Trajectory, drawn: DrawnRotation, t: Array) -> Rotation:
     angle = collapsed(along(run, lambda equations: [drawn.angle], 1, t))[:, 0]
     axis, begin = (_triple(constants(run, row)) for row in (drawn.axis, drawn.begin))
     (offset,) = constants(run, [drawn.offset])
-    return Rotation(drawn.symbol, angle, axis, _unit(begin), offset)
+    symbol, coordinate, sign = drawn.symbol, drawn.coordinate, drawn.sign
+    return Rotation(symbol, angle, axis, _unit(begin), offset, coordinate, sign)
 
 
 def _unit(vector: Triple) -> Triple:

@@ -6,9 +6,16 @@ export interface Chosen {
   start: Map<string, string>;
   duration: string;
   time: number;
+  /** From where the picture is seen, in reaches of the body; empty for the usual view. */
+  view: number[];
+  /** What is switched on in the picture, by name; null for what usually is. */
+  shown: string[] | null;
 }
 
-export const unchanged = (): Chosen => ({ parameters: new Map(), start: new Map(), duration: "", time: 0 });
+export const unchanged = (): Chosen => ({ parameters: new Map(), start: new Map(), duration: "", time: 0, view: [], shown: null });
+
+const KNOWN = ["system", "set", "start", "duration", "time", "view", "show"];
+const FARTHEST = 1e4; // reaches
 
 export function written(system: string, chosen: Chosen): string {
   const pairs = new URLSearchParams({ system });
@@ -16,6 +23,8 @@ export function written(system: string, chosen: Chosen): string {
   for (const [name, text] of chosen.start) pairs.append("start", `${name}=${text}`);
   if (chosen.duration) pairs.set("duration", chosen.duration);
   if (chosen.time) pairs.set("time", chosen.time.toPrecision(6));
+  if (chosen.view.length) pairs.set("view", chosen.view.map((part) => Number(part.toPrecision(4))).join(" "));
+  if (chosen.shown) pairs.set("show", chosen.shown.join(" "));
   return `#${pairs}`;
 }
 
@@ -25,11 +34,15 @@ export function read(system: string, hash: string): Chosen | null {
   if (![...pairs].length) return null;
   const named = pairs.get("system");
   if (named !== system) throw new Error(`The link is for ${named ? `the system ${named}` : "no system"}, and this page shows ${system}.`);
-  const other = [...pairs.keys()].find((key) => !["system", "set", "start", "duration", "time"].includes(key));
+  const other = [...pairs.keys()].find((key) => !KNOWN.includes(key));
   if (other) throw new Error(`The link says something about “${other}”, which this page does not know.`);
   const time = Number(pairs.get("time") ?? 0);
   if (!Number.isFinite(time)) throw new Error("The link gives a time that is no number.");
-  return { parameters: assigned(pairs.getAll("set")), start: assigned(pairs.getAll("start")), duration: pairs.get("duration") ?? "", time };
+  const view = (pairs.get("view") ?? "").split(" ").filter(Boolean).map(Number);
+  const size = Math.hypot(...view);
+  if (view.length && !(view.length === 3 && size > 0 && size < FARTHEST)) throw new Error("The link gives a view that is not three numbers.");
+  const shown = pairs.has("show") ? (pairs.get("show") ?? "").split(" ") : null;
+  return { parameters: assigned(pairs.getAll("set")), start: assigned(pairs.getAll("start")), duration: pairs.get("duration") ?? "", time, view, shown };
 }
 
 function assigned(texts: string[]): Map<string, string> {

@@ -81,7 +81,7 @@ export interface DrawnAngles {
   name: string;
   body: number;
   vertex: Outputs;
-  rotations: { symbol: string; angle: number; axis: Outputs; begin: Outputs; offset: number }[];
+  rotations: { symbol: string; angle: number; axis: Outputs; begin: Outputs; offset: number; coordinate: string; sign: number }[];
 }
 
 export interface Drawn {

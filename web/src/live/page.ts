@@ -3,11 +3,12 @@
 import "../sliders.css";
 import { digits, formula, make, painted, raised } from "../dom";
 import { Player } from "../player";
-import type { SceneData, TraceData } from "../scene";
+import type { SceneData, TraceData, Triple } from "../scene";
 import { type Control, isAbout, Slider } from "../sliders";
 import { footer, heading, judgements, sections, warning } from "../text";
 import { Computer } from "./computer";
 import type { Answer } from "./answer";
+import { Grips } from "./grips";
 import { type Chosen, read, unchanged, written } from "./link";
 import type { LiveData, Numbers } from "./model";
 import type { Ending } from "./motion";
@@ -20,6 +21,7 @@ const SAME = 1e-6; // of a duration
 
 export class LivePage {
   private readonly player = new Player();
+  readonly grips = new Grips(this.player, (name, value) => this.grip(name, value));
   private readonly panel = make("section", { class: "panel live", "aria-label": "Numbers" });
   private readonly message = make("p", { class: "message", role: "status" });
   private readonly words = make("div", { class: "words" });
@@ -108,7 +110,7 @@ export class LivePage {
     select.addEventListener("change", () => {
       const chosen = presets[Number(select.value)];
       if (select.value === "" || !chosen) return this.reset();
-      this.chosen = { parameters: new Map(Object.entries(chosen.parameters)), start: new Map(Object.entries(chosen.start)), duration: chosen.duration, time: 0 };
+      this.chosen = { parameters: new Map(Object.entries(chosen.parameters)), start: new Map(Object.entries(chosen.start)), duration: chosen.duration, time: 0, view: [], shown: null };
       this.preset = Number(select.value);
       this.furnish();
       void this.compute(this.live.frames);
@@ -132,6 +134,11 @@ export class LivePage {
     this.chosen[kind].set(name, text);
     this.forget();
     this.request();
+  }
+
+  /** Set the start by what is dragged in the picture. */
+  private grip(name: string, value: number): void {
+    this.sliders.find((slider) => slider.name === name)?.set(value);
   }
 
   /** The motion is no longer the one that was chosen by its question. */
@@ -219,8 +226,18 @@ export class LivePage {
   private play(scene: SceneData): void {
     this.shown = scene;
     this.player.show({ ...scene, traces: [...scene.traces, ...this.kept] }, this.live.system);
+    this.look();
     this.player.furnish();
     this.player.plot(scene);
+  }
+
+  /** See the picture as an address has it, once. */
+  private look(): void {
+    const { stage } = this.player;
+    const { view, shown } = this.chosen;
+    if (stage && shown) stage.switched = shown;
+    if (stage && view.length) stage.view.from = view as Triple;
+    [this.chosen.view, this.chosen.shown] = [[], null];
   }
 
   /** The motion that is shown stays, marked as one of other numbers. */
@@ -276,11 +293,11 @@ export class LivePage {
     return this.chosen.parameters.size + this.chosen.start.size > 0 || this.chosen.duration !== "";
   }
 
-  /** The address of the motion at the present time. */
+  /** The address of the motion at the present time, as it is seen. */
   private address(): string {
-    this.chosen.time = this.player.clock?.time ?? 0;
-    remember(written(this.live.system, this.chosen));
-    this.chosen.time = 0;
+    const { clock, stage } = this.player;
+    const seen = stage ? { view: stage.view.from, shown: stage.switched } : {};
+    remember(written(this.live.system, { ...this.chosen, time: clock?.time ?? 0, ...seen }));
     return location.href;
   }
 

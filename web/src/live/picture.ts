@@ -289,12 +289,14 @@ function angled({ name, body, vertex, rotations }: LiveData["drawn"]["angles"][n
     name,
     body,
     vertex: collapsed(motion.rows(vertex), 3),
-    rotations: rotations.map(({ symbol, angle, axis, begin, offset }) => ({
+    rotations: rotations.map(({ symbol, angle, axis, begin, offset, coordinate, sign }) => ({
       symbol,
       angle: collapsed(motion.column(angle), 1),
       axis: motion.constants(axis) as Triple,
       begin: unit(motion.constants(begin)),
       offset: motion.constants([offset])[0],
+      coordinate,
+      sign,
     })),
   };
 }
