@@ -154,3 +154,54 @@ def test_two_balls_part_as_they_met() -> None:
     lost = run("two-balls")["energy"][0] - run("two-balls")["energy"][-1]
     reduced = known["m"] * known["M"] / (known["m"] + known["M"])
     assert lost == pytest.approx(reduced / 2 * before["gap_dot"] ** 2 * (1 - 0.9**2), rel=1e-10)
+
+
+def points_of_a_cone(h: float, alpha: float) -> tuple[np.ndarray, np.ndarray]:
+    """Points of a cone with its apex at the origin about the third axis, and shares of its mass."""
+    z, weight = np.polynomial.legendre.leggauss(12)
+    z, weight = h * (z + 1) / 2, weight / 2
+    s, share = np.polynomial.legendre.leggauss(8)
+    s, share = (s + 1) / 2, share / 2
+    turns = 2 * np.pi * np.arange(12) / 12
+    grid = np.meshgrid(np.arange(12), np.arange(8), turns, indexing="ij")
+    i, j, turn = grid[0], grid[1], grid[2]
+    radius = z[i] * np.tan(alpha) * np.sqrt(s[j])  # equal areas in equal steps of s
+    places = np.stack([radius * np.cos(turn), radius * np.sin(turn), z[i]])
+    masses = 3 * (z[i] / h) ** 2 * weight[i] * share[j] / 12
+    return places.reshape(3, -1), masses.ravel()
+
+
+def test_a_cone_rolls_around_its_apex() -> None:
+    """Energy and forces from the points of the cone, which turns about the line that touches."""
+    known, rate = values("rolling-cone"), 4.0
+    m, h, alpha = known["m"], known["h"], known["alpha"]
+    places, shares = points_of_a_cone(h, alpha)
+    # the axis along x, up by alpha: the lowest line of the side is along x
+    across = np.array(
+        [[np.sin(alpha), 0, np.cos(alpha)], [0, 1, 0], [-np.cos(alpha), 0, np.sin(alpha)]]
+    )
+    at = across @ places
+    turning = np.array([-rate / np.tan(alpha), 0, 0])
+    velocity = np.cross(turning, at.T).T
+    energy = m * np.sum(shares * np.sum(velocity**2, axis=0)) / 2
+    assert energy == pytest.approx(3 / 40 * m * h**2 * rate**2 * (1 + 5 * np.cos(alpha) ** 2))
+    final = run("rolling-cone").final
+    centre = at @ shares
+    assert final["energy"] == pytest.approx(energy + m * G * centre[2], rel=1e-12)
+    # the angular momentum turns with the cone, by the torque of the weight and of N
+    momentum = m * np.sum(shares * np.cross(at.T, velocity.T).T, axis=1)
+    torque = np.cross([0, 0, rate], momentum)
+    side = h / np.cos(alpha)
+    pressing = (m * G * centre[0] - torque[1]) / side
+    assert final["N_z"] == pytest.approx(pressing, rel=1e-12)
+    assert final["F_z"] == pytest.approx(m * G - pressing, rel=1e-12)
+
+
+def test_a_cone_that_rolls_too_fast_tips_about_its_edge() -> None:
+    """Where nothing presses at the apex: 3 h (1 + 5 cos²α) φ̇² sin α = 5 g (1 + 3 sin²α)."""
+    entry, known = CATALOGUE["rolling-cone"], values("rolling-cone")
+    sine, cosine = np.sin(known["alpha"]), np.cos(known["alpha"])
+    fastest = np.sqrt(5 * G * (1 + 3 * sine**2) / (3 * known["h"] * (1 + 5 * cosine**2) * sine))
+    for rate, pulls in ((0.999 * fastest, False), (1.001 * fastest, True)):
+        found = ph.simulate(entry.build(), known, {"phi_dot": rate}, 0.1)
+        assert (found.final["F_z"] < 0) is pulls

@@ -110,3 +110,41 @@ def test_contacts_and_joints_are_called_by_what_they_are_and_the_tag() -> None:
         arms = {"arm": axes["x"], "other_arm": LAB["z"]}
         assert ph.Universal(body, **arms).name == f"universal{suffix}"
         assert ph.Guide(body, axis="x", normal=LAB["z"], label="z").name == f"guide{suffix}"
+
+
+def test_boxes_and_cones_have_the_inertia_of_their_points() -> None:
+    """Against sums over boxes within a box, and over disks within a cone."""
+    body = ph.box("box", mass=m, sides=(a, b, c), axes=LAB)
+    assert body.inertia == Matrix.diagonal(
+        [m * (b**2 + c**2) / 12, m * (c**2 + a**2) / 12, m * (a**2 + b**2) / 12]
+    )
+    # of eight boxes of half its sides, by the theorem of parallel axes
+    part = ph.box("part", mass=m / 8, sides=(a / 2, b / 2, c / 2), axes=LAB).inertia
+    moved = [m / 8 * (b**2 + c**2) / 16, m / 8 * (c**2 + a**2) / 16, m / 8 * (a**2 + b**2) / 16]
+    assert body.inertia == Matrix.diagonal([8 * (part[i, i] + moved[i]) for i in range(3)])
+    cone = ph.cone("cone", mass=1.0, radius=0.3, height=0.7, axes=LAB.rotated(0, "z", "1 2 3"))
+    z, weight = np.polynomial.legendre.leggauss(6)
+    z, radius = 0.7 * (1 + z) / 2, 0.3 * (1 - (1 + z) / 2)  # from the base to the apex
+    masses = 3 / 0.3**2 * radius**2 * weight / 2
+    height = np.sum(masses * z)
+    assert height == pytest.approx(0.7 / 4)
+    about = np.sum(masses * radius**2) / 2
+    across = np.sum(masses * (radius**2 / 4 + (z - height) ** 2))
+    moments = ph.compile_program([cone.inertia[i, i] for i in range(3)], ()).function()()
+    assert list(moments) == pytest.approx([across, across, about])
+
+
+@pytest.mark.parametrize("sides", [(1, 2), (1, 2, -3), "abc"])
+def test_a_box_has_three_positive_sides(sides) -> None:
+    with pytest.raises(ph.DeclarationError):
+        ph.box("box", mass=1, sides=sides, axes=LAB)
+
+
+def test_an_upright_cone_stands_on_the_edge_of_its_base_until_its_side_touches() -> None:
+    """Released leaning, it falls on its edge: the apex comes down to the table."""
+    theta, axes = ph.coordinate("theta"), LAB.rotated(ph.coordinate("theta"), "y", "1 2 3")
+    cone = ph.cone("cone", mass=1, radius=a, height=h, axes=axes, spin=ph.WithAxes())
+    leaning = cone.surface.assumed_positive(axes, LAB["z"])
+    program = ph.compile_program(leaning[-1:], (theta.symbol, a.symbol, h.symbol))
+    (above,) = program.function()(0.3, 0.3, 0.7)
+    assert above == pytest.approx(0.7 * np.cos(0.3) + 0.3 * np.sin(0.3))

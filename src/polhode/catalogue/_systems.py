@@ -14,6 +14,7 @@ from polhode.catalogue._gyroscope import GYROSCOPE, HELD, IN_VERTICAL_PLANE, UPR
 from polhode.catalogue._ladder import LADDER
 from polhode.catalogue._marble_on_turntable import MARBLE_ON_TURNTABLE, TILTED
 from polhode.catalogue._rocking_block import ROCKING_BLOCK
+from polhode.catalogue._rolling_cone import ROLLING_CONE
 from polhode.catalogue._tennis_racquet import TENNIS_RACQUET
 from polhode.catalogue._tippe_top import TIPPE_TOP
 
@@ -48,6 +49,7 @@ CLASSICS: dict[str, CatalogueEntry] = {
         CYLINDER_IN_CYLINDER,
         LADDER,
         ROCKING_BLOCK,
+        ROLLING_CONE,
         TIPPE_TOP,
         EULERS_DISK,
         CUE_BALL,

@@ -78,6 +78,8 @@ from polhode.model._potentials import Potential as Potential
 from polhode.model._potentials import TorsionDamper as TorsionDamper
 from polhode.model._potentials import TorsionSpring as TorsionSpring
 from polhode.model._rope import Rope as Rope
+from polhode.model._shapes import box as box
+from polhode.model._shapes import cone as cone
 from polhode.model._shapes import cylinder as cylinder
 from polhode.model._shapes import disk as disk
 from polhode.model._shapes import ellipsoid as ellipsoid
@@ -98,6 +100,7 @@ from polhode.model._support import MISFIT as MISFIT
 from polhode.model._support import NO_FOOT as NO_FOOT
 from polhode.model._support import STEEP as STEEP
 from polhode.model._support import Support as Support
+from polhode.model._surface import BaseEdge as BaseEdge
 from polhode.model._surface import Ellipsoidal as Ellipsoidal
 from polhode.model._surface import Face as Face
 from polhode.model._surface import Profile as Profile

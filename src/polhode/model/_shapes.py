@@ -10,7 +10,7 @@ from polhode.model._body import Body
 from polhode.model._declared import positive, three
 from polhode.model._frame import Frame
 from polhode.model._spin import About, Free
-from polhode.model._surface import Ellipsoidal, LowerEdge, Rim, Round
+from polhode.model._surface import BaseEdge, Ellipsoidal, LowerEdge, Rim, Round
 
 
 def disk(
@@ -106,6 +106,49 @@ def cylinder(
     surface = LowerEdge(radius, axis, -height / 2)
     more = {"spin": About(axis), "surface": surface, "inertia": moments, **more}
     return Body(name, mass=mass, axes=axes, **more)
+
+
+def cone(
+    name: str,
+    *,
+    mass: ExprLike,
+    radius: ExprLike,
+    height: ExprLike,
+    axes: Frame,
+    axis: str = "3",
+    **more: Any,
+) -> Body:
+    """A uniform solid cone about `axis`, from its base to its apex, touching with its base's edge.
+
+    Its centre of mass is a quarter of the height above the base: 3 m a²/10 about the axis, and
+    3 m (4 a² + h²)/80 across it.
+    """
+    mass, radius = Expr.of(mass), positive(radius, f"radius of {name!r}")
+    height = positive(height, f"height of {name!r}")
+    across = mass * (4 * radius**2 + height**2) * Fraction(3, 80)
+    about = mass * radius**2 * Fraction(3, 10)
+    moments = [about if i == axes.position(axis) else across for i in range(3)]
+    surface = BaseEdge(radius, axis, -height / 4, height)
+    more = {"spin": About(axis), "surface": surface, "inertia": moments, **more}
+    return Body(name, mass=mass, axes=axes, **more)
+
+
+def box(
+    name: str,
+    *,
+    mass: ExprLike,
+    sides: tuple[ExprLike, ExprLike, ExprLike],
+    axes: Frame,
+    **more: Any,
+) -> Body:
+    """A uniform solid box with sides along its axes: m (b² + c²)/12 and so on.
+
+    It touches nothing by itself: contacts name its corners, `at=axes.vector(a/2, b/2, -c/2)`.
+    """
+    given = three(sides, f"sides of body {name!r}")
+    a, b, c = (positive(side, f"side of {name!r}") ** 2 for side in given)
+    moments = [Expr.of(mass) * squares / 12 for squares in (b + c, c + a, a + b)]
+    return Body(name, mass=mass, axes=axes, **{"inertia": moments, **more})
 
 
 def point_mass(name: str, *, mass: ExprLike, axes: Frame, **more: Any) -> Body:

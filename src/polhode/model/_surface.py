@@ -235,6 +235,35 @@ class LowerEdge(Rim):
 
 
 @dataclass(frozen=True)
+class BaseEdge(Rim):
+    """The edge of the base of a cone whose apex is up the axis, at a negative `offset`.
+
+    It is the lowest part of the cone as long as the apex is above the support. A cone that always
+    lies on its side touches along a line from this edge to the apex: what is applied here is the
+    force at the edge, and a joint at the apex has the rest.
+
+    Attributes:
+        height: of the apex above the base, m.
+    """
+
+    height: Expr = ZERO
+
+    @property
+    def profile(self) -> Profile:
+        apex, base = self.offset + self.height, self.offset
+        return Profile(self.axis, ((apex, ZERO), (base, self.radius), (base, ZERO)))
+
+    @property
+    def encloses_centre(self) -> bool:
+        return True
+
+    def assumed_positive(self, axes: Frame, normal: Vector) -> tuple[Expr, ...]:
+        (steep,) = super().assumed_positive(axes, normal)
+        above = axes[self.axis].dot(normal) * self.height + steep * self.radius
+        return (steep, above) if above else (steep,)
+
+
+@dataclass(frozen=True)
 class Ellipsoidal(Surface):
     """An ellipsoid with these half-axes along the body's axes, such as the base of a rattleback.
 

@@ -9,7 +9,7 @@ from functools import singledispatch
 import numpy as np
 
 from polhode.algebra import Expr
-from polhode.model import Body, Ellipsoidal, Face, Rim, Round, Surface
+from polhode.model import BaseEdge, Body, Ellipsoidal, Face, Profile, Rim, Round, Surface
 from polhode.view._quantities import Array
 from polhode.view._scene import BodyShape, Triple
 
@@ -47,6 +47,10 @@ def source_of(surface: Surface | None, body: Body) -> ShapeSource:
     profile = surface.profile if surface is not None else None
     if profile is None:
         return ShapeSource("inertia", (body.mass, *body.inertia.entries))
+    return _outlined(profile, body)
+
+
+def _outlined(profile: Profile, body: Body) -> ShapeSource:
     outline = tuple(length for point in profile.outline for length in point)
     return ShapeSource("outline", outline, body.axes.position(profile.axis))
 
@@ -72,6 +76,11 @@ def _(surface: Rim, body: Body) -> ShapeSource:
     position = body.axes.position(surface.axis)
     numbers = (surface.radius, surface.offset, body.mass, body.inertia[position, position])
     return ShapeSource("rim", numbers, position)
+
+
+@source_of.register
+def _(surface: BaseEdge, body: Body) -> ShapeSource:
+    return _outlined(surface.profile, body)
 
 
 # -- rules; a live page has the same in shape_rules.ts -------------------------------------------
