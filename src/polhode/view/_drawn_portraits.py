@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import islice
 
 from polhode.algebra import Expr, Symbol
 from polhode.derive import Equations, is_angle
@@ -46,13 +45,18 @@ class DrawnPortrait:
 
 def portraits_in(equations: Equations) -> Iterator[DrawnPortrait]:
     """The portraits of a motion that begins with these equations."""
-    essential = (q for q in equations.coordinates if q in equations.energy.symbols())
-    yield from (_phase(equations, q) for q in islice(essential, _PHASES))
+    yield from (_phase(equations, q) for q in essential_coordinates(equations)[:_PHASES])
     for i, body in enumerate(equations.system.bodies):
         if isinstance(body.spin, About | Relative):
             yield _axis(i, body, body.spin.axis)
         elif isinstance(body.spin, Components) and not body.is_isotropic:
             yield _polhode(body)
+
+
+def essential_coordinates(equations: Equations) -> list[Symbol]:
+    """The coordinates that the energy depends on."""
+    used = equations.energy.symbols()
+    return [q for q in equations.coordinates if q in used]
 
 
 def _phase(equations: Equations, q: Symbol) -> DrawnPortrait:

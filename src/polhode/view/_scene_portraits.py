@@ -10,7 +10,7 @@ import numpy as np
 from polhode.algebra import Expr
 from polhode.base import PolhodeError
 from polhode.simulate import Trajectory
-from polhode.view._drawn_portraits import DrawnPortrait, portraits_in
+from polhode.view._drawn_portraits import DrawnPortrait, essential_coordinates, portraits_in
 from polhode.view._mathml import inline, typeset
 from polhode.view._quantities import Array, equations_of, largest, scale_for
 from polhode.view._scene import Portrait
@@ -64,6 +64,8 @@ def _moves(portrait: Portrait) -> bool:
 
 def _well(run: Trajectory, t: Array) -> Iterator[Portrait]:
     """The effective potential of a system that reduces to one tilt."""
+    if len(essential_coordinates(equations_of(run))) != 1:
+        return
     try:
         tilt = tilt_of(run)
         angles = angles_about(run, tilt)
