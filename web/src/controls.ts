@@ -1,11 +1,12 @@
 // Play, pause, speed, slider, arrows, and the keys that do the same.
 
+import type { Extra } from "./annotations";
 import { COLOURS } from "./arrows";
 import { type Clock, rates } from "./clock";
 import { digits, formula, make } from "./dom";
 import type { ArrowKind } from "./scene";
 import type { Arrow } from "./arrows";
-import type { Extra, Stage } from "./stage";
+import type { Stage } from "./stage";
 
 const STEP = 0.01; // of the duration, for one press of an arrow key
 const FINENESS = 2000; // positions of the slider
@@ -74,11 +75,11 @@ function speed(clock: Clock): HTMLElement {
 
 /** Switches for arrows, traces and the camera. */
 export function switches(stage: Stage, clock: Clock): HTMLElement {
-  const arrows = stage.kinds.map((kind) => arrowSwitch(kind, stage, clock));
+  const arrows = stage.annotations.kinds.map((kind) => arrowSwitch(kind, stage, clock));
   const traces = toggle("Traces", stage.showsTraces, (on) => stage.showTraces(on));
-  const extras = (Object.keys(EXTRAS) as Extra[]).filter((extra) => stage.has(extra)).map((extra) => {
+  const extras = (Object.keys(EXTRAS) as Extra[]).filter((extra) => stage.annotations.has(extra)).map((extra) => {
     const [text, title] = EXTRAS[extra];
-    const button = toggle(text, stage.extras[extra], (on) => stage.showExtra(extra, on));
+    const button = toggle(text, stage.annotations.shows(extra), (on) => stage.annotations.show(extra, on));
     button.title = title;
     return button;
   });
@@ -97,11 +98,11 @@ export function switches(stage: Stage, clock: Clock): HTMLElement {
 }
 
 function arrowSwitch(kind: ArrowKind, stage: Stage, clock: Clock): HTMLElement {
-  const own = stage.arrows.filter(({ data }) => data.kind === kind);
+  const own = stage.annotations.arrows.filter(({ data }) => data.kind === kind);
   const [letter, words] = NAMES[kind];
   const about = pointOf(own);
   const value = make("span", { class: "value" });
-  const button = toggle("", stage.shows(kind), (shown) => stage.show(kind, shown));
+  const button = toggle("", stage.annotations.shows(kind), (shown) => stage.annotations.show(kind, shown));
   const dot = make("span", { class: "dot", "aria-hidden": "true" });
   dot.style.background = COLOURS[kind];
   button.title = `${words}: ${own.map(({ data }) => data.name).join(", ")}`;

@@ -1,20 +1,16 @@
 // The three-dimensional picture.
 
 import { type Object3D, Vector2, Vector3 } from "three";
-import { Arrow, arrowObject, scales, usuallyShown } from "./arrows";
+import { Annotations } from "./annotations";
 import { type Extent, extentOf, tracedBy } from "./extent";
 import { CameraView } from "./camera_view";
-import { Components } from "./components";
 import { Display } from "./display";
-import { AngleArcs, Axes, type Guide, THIN } from "./guides";
-import { Letters } from "./letters";
 import { Link } from "./links";
 import { Plan } from "./plan";
 import { Pose } from "./pose";
 import { mounts } from "./mounts";
-import { type ArrowKind, Rows, type SceneData, type SupportData, type Triple } from "./scene";
+import { Rows, type SceneData, type SupportData, type Triple } from "./scene";
 import { reach } from "./reach";
-import { ScaleBars } from "./scale_bars";
 import { bodyObject } from "./shapes";
 import { boundless, paint, surfaceOf } from "./supports";
 import { Trace } from "./traces";
@@ -23,26 +19,15 @@ import { Triad } from "./triad";
 const SPACIOUS = 6; // body sizes: beyond this extent, arrows are drawn larger
 const WANDERS = 12; // body sizes: beyond this extent the body would be a dot, and is followed
 const WIDE = 60; // reaches by which a sheet is wider while a hand pulls it
-const ARCS = 0.9; // size by which arcs far from their body are drawn, against that distance
-const TOUCHING = 1e-6; // reaches
 const LIFT = 0.05; // of a floor below what stands on it, in reaches
 
-/** Switched on and off beside arrows and traces. */
-export type Extra = "angles" | "axes" | "components";
-
 export class Stage {
-  readonly arrows: Arrow[];
+  readonly annotations: Annotations;
   readonly traces: Trace[];
   readonly view: CameraView;
   private readonly display: Display;
-  private readonly shown: Set<ArrowKind>;
   private readonly links: Link[];
   private readonly triad: Triad;
-  private readonly letters = new Letters();
-  private readonly bars: ScaleBars;
-  private readonly angles: AngleArcs[];
-  private readonly axes: Guide[];
-  private readonly components: Components[];
   private readonly plan: Plan;
   private readonly moving: { pose: Pose; object: Object3D }[] = [];
   private readonly poses: Pose[];
@@ -55,9 +40,6 @@ export class Stage {
   private frame = 0;
   private stale = false;
   private traced = true;
-  /** What else there is to switch on. */
-  readonly extras: Record<Extra, boolean> = { angles: true, axes: false, components: false };
-
   /**
    * Throws `NoWebGL` where there is none.
    *
@@ -75,11 +57,8 @@ export class Stage {
     this.poses = scene.bodies.map((body) => new Pose(body.pose));
     this.links = scene.links.map((data) => new Link(data));
     const reaches = Math.max(...scene.bodies.map(reach));
-    const thick = 0.028 * reaches;
-    this.arrows = this.makeArrows(reaches, thick);
-    this.components = this.arrows.filter(({ data }) => data.normal.shape[0]).map((arrow) => new Components(arrow, thick, this.letters));
-    this.shown = usuallyShown(this.kinds);
-    const first = this.arrows.filter(({ data }) => this.shown.has(data.kind));
+    this.annotations = new Annotations(scene, this.poses, this.display, reaches, () => this.refresh());
+    const first = this.annotations.arrows.filter(({ data }) => this.annotations.shows(data.kind));
     this.extent = extentOf(new Vector3(...scene.up), this.poses, reaches, this.fixed(), first, scene.traces.flatMap(tracedBy), scene.supports, scene.frames);
     const follow = this.extent.radius > WANDERS * reaches && !this.isTied();
     this.addBodies();
@@ -87,10 +66,7 @@ export class Stage {
     this.addGrounds(this.grid);
     this.traces = scene.traces.map((data) => new Trace(data));
     for (const trace of this.traces) this.carrier(trace).add(this.display.own(trace.line));
-    this.angles = this.makeAngles();
-    this.axes = this.makeAxes(reaches);
-    for (const { object } of [...this.links, ...this.angles, ...this.axes, ...this.components]) this.display.own(object);
-    this.bars = new ScaleBars(this.arrows);
+    for (const { object } of this.links) this.display.own(object);
     before?.leave();
     const from = this.display.camera.position.clone();
     this.fit();
@@ -98,7 +74,8 @@ export class Stage {
     this.view = new CameraView(this.display, holder, this.extent, follow, body, () => this.draw());
     this.plan = new Plan(this.extent.up, scene.traces);
     this.open(from, keepsView ? before : undefined);
-    holder.append(Object.assign(this.canvas, { camera: this.display.camera }), this.letters.element, this.triad.element, this.bars.element, this.plan.element); // which tells what is in view
+    const canvas = Object.assign(this.canvas, { camera: this.display.camera }); // which tells what is in view
+    holder.append(canvas, ...this.annotations.elements, this.triad.element, this.plan.element);
     this.showPlan();
     this.fitting.observe(holder);
   }
@@ -107,9 +84,8 @@ export class Stage {
   private open(from: Vector3, before?: Stage): void {
     if (before) this.inherit(before);
     if (before) this.view.choose(before.view.chosen);
-    for (const { data, group } of this.arrows) group.visible = this.shown.has(data.kind);
+    this.annotations.begin();
     this.showTraces(this.traced);
-    for (const [extra, shown] of Object.entries(this.extras)) this.showExtra(extra as Extra, shown);
     this.magnify();
     this.view.home();
     if (before) this.view.takeOver(before.view, from);
@@ -130,31 +106,27 @@ export class Stage {
   /** Arrows are large enough to be visible when a long path is in view. */
   private magnify(): void {
     const { radius, reach } = this.extent;
-    const times = this.view.follow ? 1 : Math.max(1, radius / (SPACIOUS * reach));
-    for (const { group } of this.arrows) group.scale.setScalar(times);
+    this.annotations.magnify(this.view.follow ? 1 : Math.max(1, radius / (SPACIOUS * reach)));
   }
 
   /** Keep what was switched on or off. */
   private inherit(before: Stage): void {
     this.traced = before.traced;
-    Object.assign(this.extras, before.extras);
-    for (const kind of before.kinds) this.shown[before.shown.has(kind) ? "add" : "delete"](kind);
+    this.annotations.inherit(before.annotations);
   }
 
   private leave(): void {
     this.display.set();
     this.stale = false;
     this.fitting.disconnect();
-    for (const { element } of [this.letters, this.triad, this.bars]) element.remove();
+    for (const element of [this.triad.element, ...this.annotations.elements]) element.remove();
     this.plan.element.remove();
     this.view.leave();
   }
 
   /** Hide what belongs to the previous motion, on a wide sheet, while the sheet is dragged. */
   bare(): void {
-    for (const arrow of this.arrows) arrow.group.visible = false;
-    for (const part of [...this.angles, ...this.axes, ...this.components]) part.show(false);
-    this.letters.element.hidden = true;
+    this.annotations.hide();
     for (const trace of this.traces) trace.line.removeFromParent();
     for (const sheet of this.sheets) {
       const { reach } = sheet.support;
@@ -190,57 +162,24 @@ export class Stage {
     return this.display.renderer.domElement;
   }
 
-  get kinds(): ArrowKind[] {
-    return [...new Set(this.scene.arrows.map(({ kind }) => kind))];
-  }
-
-  shows(kind: ArrowKind): boolean {
-    return this.shown.has(kind);
-  }
-
   get showsTraces(): boolean {
     return this.traced;
   }
 
-  show(kind: ArrowKind, shown: boolean): void {
-    this.shown[shown ? "add" : "delete"](kind);
-    for (const arrow of this.arrows) if (arrow.data.kind === kind) arrow.group.visible = shown;
-    this.refresh();
-  }
-
-  /** The present value of a coordinate with an arc, rad. */
-  angleOf(coordinate: string): number | null {
-    return this.angles.reduce<number | null>((found, arcs) => found ?? arcs.valueOf(coordinate), null);
-  }
-
   /** The value of a coordinate whose arc would end under a point of the screen; null where none does. */
   angleAt(coordinate: string, x: number, y: number): number | null {
-    const sight = this.view.sight(x, y);
-    return this.angles.reduce<number | null>((found, arcs) => found ?? arcs.valueAt(coordinate, sight), null);
+    return this.annotations.angleAt(coordinate, this.view.sight(x, y));
   }
 
   /** Everything that is switched on, by name. */
   get switched(): string[] {
-    const extras = (Object.keys(this.extras) as Extra[]).filter((extra) => this.extras[extra]);
-    return [...this.kinds.filter((kind) => this.shows(kind)), ...extras, ...(this.traced ? ["traces"] : []), ...(this.view.follow ? ["follow"] : [])];
+    return [...this.annotations.switched, ...(this.traced ? ["traces"] : []), ...(this.view.follow ? ["follow"] : [])];
   }
 
   set switched(names: string[]) {
-    for (const kind of this.kinds) this.show(kind, names.includes(kind));
-    for (const extra of Object.keys(this.extras) as Extra[]) this.showExtra(extra, names.includes(extra));
+    this.annotations.switched = names;
     this.showTraces(names.includes("traces"));
     if (this.view.follow !== names.includes("follow")) this.setFollow(!this.view.follow);
-  }
-
-  /** Whether there is anything of this sort to be shown. */
-  has(extra: Extra): boolean {
-    return this[extra].length > 0;
-  }
-
-  showExtra(extra: Extra, shown: boolean): void {
-    this.extras[extra] = shown;
-    for (const part of this[extra]) part.show(shown);
-    this.refresh();
   }
 
   /** Draw again what depends on what else is shown. */
@@ -258,7 +197,7 @@ export class Stage {
   theme(dark: boolean): void {
     this.dark = dark;
     paint(this.display.world, dark);
-    for (const part of [...this.traces, ...this.angles, ...this.axes]) part.theme(dark);
+    for (const part of [...this.traces, this.annotations]) part.theme(dark);
     this.draw();
   }
 
@@ -271,9 +210,7 @@ export class Stage {
 
   private seekFrame(): void {
     for (const { pose, object } of this.moving) pose.apply(this.frame, object);
-    for (const arrow of this.arrows) if (!arrow.follows) arrow.update(this.frame);
-    for (const arrow of this.arrows) if (arrow.follows) arrow.update(this.frame);
-    for (const part of [...this.angles, ...this.axes, ...this.components]) part.update(this.frame);
+    this.annotations.update(this.frame);
     for (const link of this.links) link.update(this.frame);
     for (const trace of this.traces) trace.update(this.frame);
     this.plan.update(this.poses[0].placeAt(this.frame, new Vector3()));
@@ -293,8 +230,8 @@ export class Stage {
     this.display.draw();
     const { camera } = this.display;
     this.triad.update(camera);
-    this.letters.update(camera, this.holder.clientWidth, this.holder.clientHeight);
-    this.bars.update(camera, this.poses[0].placeAt(this.frame, new Vector3()), this.holder.clientHeight);
+    const { clientWidth: width, clientHeight: height } = this.holder;
+    this.annotations.place(camera, width, height, this.poses[0].placeAt(this.frame, new Vector3()));
   }
 
   private fit(): void {
@@ -377,33 +314,5 @@ export class Stage {
       .map(({ foot, middle }) => ({ point: new Vector3().fromArray(foot.at(0, [])), middle }))
       .filter(({ point, middle }) => point.distanceTo(middle) >= 1e-6 * this.extent.reach)
       .map(({ point }) => point);
-  }
-
-  private makeArrows(reach: number, thick: number): Arrow[] {
-    const scale = scales(this.scene.arrows, reach);
-    const arrows = this.scene.arrows.map((data) => {
-      const { kind, body } = data;
-      const object = this.display.part({ kind, thick }, () => arrowObject(kind, thick));
-      return new Arrow(data, object, this.poses[body], scale(kind), thick, this.letters);
-    });
-    for (const torque of arrows.filter(({ data }) => data.kind === "torque")) {
-      torque.follows = arrows.find(({ data }) => data.kind === "momentum" && data.body === torque.data.body) ?? null;
-    }
-    return arrows;
-  }
-
-  private makeAngles(): AngleArcs[] {
-    return this.scene.angles.map((data) => {
-      const vertex = new Vector3().fromArray(new Rows(data.vertex).at(0, []));
-      const away = this.poses[data.body].placeAt(0, new Vector3()).distanceTo(vertex);
-      const size = reach(this.scene.bodies[data.body]);
-      return new AngleArcs(data, Math.max(size, ARCS * away), THIN * size, away > TOUCHING * size, this.letters);
-    });
-  }
-
-  /** Those of the laboratory, and of every body that has axes. */
-  private makeAxes(size: number): Guide[] {
-    const own = this.scene.bodies.flatMap((body, i) => (body.labels.length ? [new Axes(this.poses[i], body.labels, reach(body), true, this.letters)] : []));
-    return [new Axes(this.poses[0], this.scene.directions, size, false, this.letters), ...own];
   }
 }

@@ -33,7 +33,7 @@ export class Grips {
     clock.pause();
     clock.seek(0); // an arc shows there the start, which it is to change
     const pointed = stage.angleAt(coordinate, event.clientX, event.clientY);
-    const present = stage.angleOf(coordinate);
+    const present = stage.annotations.angleOf(coordinate);
     if (pointed === null || present === null) return;
     this.coordinate = coordinate;
     this.value = present;
