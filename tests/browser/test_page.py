@@ -276,21 +276,19 @@ def letters(shown):
 def test_arrows_and_angles_have_their_letters(opened, written):
     with opened(written("gyroscope")) as shown:
         shown.page.get_by_role("slider", name="Time").fill("500")
-        shown.page.wait_for_timeout(100)
-        assert letters(shown).keys() == {"F", "θ", "ϕ"}
+        shown.until(lambda: letters(shown).keys() == {"F", "θ", "ϕ"})
         for name in ("angular momentum", "loads"):
             shown.page.get_by_role("button", name=name).click()
         shown.page.get_by_role("button", name="Axes").click()
-        shown.page.wait_for_timeout(100)
+        wanted = {"F", "Mg", "L", "θ", "ϕ", *"123", *"xyz"}
+        shown.until(lambda: letters(shown).keys() == wanted)
         everything = letters(shown)
-        assert everything.keys() == {"F", "Mg", "L", "θ", "ϕ", *"123", *"xyz"}
         frame = shown.page.locator(".picture").bounding_box()
         for place in everything.values():
             assert frame["x"] < place[0] < frame["x"] + frame["width"]
             assert frame["y"] < place[1] < frame["y"] + frame["height"]
         shown.page.get_by_role("button", name="Angles").click()
-        shown.page.wait_for_timeout(100)
-        assert not letters(shown).keys() & {"θ", "ϕ"}
+        shown.until(lambda: not letters(shown).keys() & {"θ", "ϕ"})
         assert shown.complaints == []
 
 
@@ -298,10 +296,10 @@ def test_a_torque_is_drawn_at_the_tip_of_the_momentum_that_it_changes(opened, wr
     """So that dL/dt = τ is seen; without the momentum it begins at the pivot."""
     with opened(written("gyroscope")) as shown:
         shown.page.get_by_role("button", name="torque").click()
-        shown.page.wait_for_timeout(100)
+        shown.until(lambda: "τ" in letters(shown))
         alone = letters(shown)["τ"]
         shown.page.get_by_role("button", name="angular momentum").click()
-        shown.page.wait_for_timeout(100)
+        shown.until(lambda: "L" in letters(shown))
         found = letters(shown)
         assert np.linalg.norm(found["τ"] - alone) > 30
         assert np.linalg.norm(found["τ"] - found["L"]) < np.linalg.norm(alone - found["L"])
@@ -312,8 +310,7 @@ def test_a_contact_force_has_its_parts_and_a_scale(opened, tmp_path):
     assert main(["run", "rolling-disk", "--mu", "0.4", "--page", str(path)]) == 0
     with opened(path) as shown:
         shown.page.get_by_role("button", name="N, f").click()
-        shown.page.wait_for_timeout(100)
-        assert letters(shown).keys() >= {"N", "f", "F"}
+        shown.until(lambda: letters(shown).keys() >= {"N", "f", "F"})
         assert shown.page.locator(".scales > div:visible").all_inner_texts() == ["0.5 N"]
         assert shown.complaints == []
 
@@ -355,7 +352,7 @@ def test_plots_are_zoomed_by_wheel_and_keys_and_follow_the_time(opened, written)
         # the time under the pointer stays there
         shown.page.mouse.move(box["x"] + 0.25 * box["width"], box["y"] + box["height"] / 2)
         shown.page.mouse.wheel(0, -300)
-        shown.page.wait_for_timeout(100)
+        shown.page.wait_for_timeout(300)
         assert cursor(shown) == pytest.approx(0.25, abs=0.02)
         assert shown.page.evaluate("scrollY") == before
         plot.press("-")
