@@ -264,13 +264,15 @@ def test_moments_and_weights_say_what_they_are(opened, written):
         assert torque.locator(".value").inner_text() == "0.255 N m"
 
 
+LETTERS = """() => [...document.querySelectorAll(".letter:not([hidden])")].map((letter) => {
+  const box = letter.getBoundingClientRect();
+  return [letter.textContent, box.x + box.width / 2, box.y + box.height / 2];
+})"""
+
+
 def letters(shown):
     """The letters in the picture, and where the middle of each is, in pixels."""
-    return {
-        letter.text_content(): np.array([box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])
-        for letter in shown.page.locator(".letter:visible").all()
-        if (box := letter.bounding_box())
-    }
+    return {text: np.array(place) for text, *place in shown.page.evaluate(LETTERS)}
 
 
 def test_arrows_and_angles_have_their_letters(opened, written):
