@@ -30,6 +30,9 @@ InertiaLike = Sequence[ExprLike] | Sequence[Sequence[ExprLike]]
 ROUNDING = 1e-12
 
 
+_LINE = 100  # characters of a body's description, beyond which its moments have lines of their own
+
+
 @dataclass(frozen=True)
 class Body(Declared):
     """A rigid body.
@@ -124,7 +127,12 @@ class Body(Declared):
         return f"Body {self.name!r}: mass {self.mass}, inertia {self._moments} along {self.axes}"
 
     def __str__(self) -> str:
-        return repr(self)
+        moments = self._moments
+        if isinstance(moments, Matrix) or len(repr(self)) <= _LINE:
+            return repr(self)
+        rows = (f"  {moment}" for moment in moments)
+        opening = f"Body {self.name!r}: mass {self.mass}, moments of inertia along {self.axes}"
+        return "\n".join((opening, *rows))
 
     @property
     def brief(self) -> str:

@@ -40,6 +40,7 @@ from polhode.simulate.integrate._arrays import Array, rows
 # entries are no sign of a singular position. Where it starts, nothing has grown yet.
 _LARGE = 10.0
 _LARGE_AT_START = 1e4
+_UNBOUNDED = 1e14  # ratio of inertias beyond which speeds have lost their meaning
 _APART = 1e-5  # rad, m, or s: how far from a singular start the speeds are chosen
 _SHORT = 0.3  # of the longest step so far: steps become this short near a singular position
 _DEPENDENT = 1e-9  # of the largest singular value of the constraints: rounding
@@ -111,13 +112,27 @@ class SpeedDependence:
         places = [float(state.get(q, 0.0)) for q in self.equations.coordinates]
         if not self.may_become_singular or not self.coordinates <= state.keys():
             return ""
-        if self.is_regular(np.array(places), constants, 0.0):
+        here = np.array(places)
+        if self.is_regular(here, constants, 0.0) and not self._is_unbounded(here, constants):
             return ""
         names, others = (
             ", ".join(s.published for s in speeds)
             for speeds in (self.equations.speeds, self.equations.dependent)
         )
         return f"the independent speeds {names} do not determine {others}"
+
+    def _is_unbounded(self, coordinates: Array, constants: Array) -> bool:
+        """Whether the inertia of an independent speed is beyond all measure of another one.
+
+        A chosen speed such as J = x v_y - y v_x has the inertia m/y² where it stands for v_x: in
+        units in which speeds are comparable v_x stays regular with it.
+        """
+        _, inertias = self._functions
+        size = len(self.equations.speeds)
+        with np.errstate(all="ignore"):
+            found = inertias(*coordinates, *np.zeros(size), *constants, 0.0)
+            masses = np.abs(rows(found, 1)[:, 0])
+        return bool(np.max(masses[:size]) > _UNBOUNDED * np.min(masses[masses > 0], initial=np.inf))
 
     def is_regular(self, coordinates: Array, constants: Array, time: float) -> bool:
         """Whether the others follow from the independent speeds in one configuration."""

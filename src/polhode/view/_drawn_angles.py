@@ -29,8 +29,9 @@ class DrawnRotation:
         axis: by components along the directions before it or after it, in which they are equal.
         begin: direction from which the arc begins, along the directions before it.
         offset: of the angle, where the arc begins, rad.
-        coordinate: published name of the coordinate that the arc is; empty for other angles.
-        sign: 1, or -1 where the coordinate turns the other way round.
+        coordinate: published name of the coordinate, or parameter, that the arc is; empty for
+            other angles.
+        sign: 1, or -1 where it turns the other way round.
     """
 
     symbol: str
@@ -164,7 +165,7 @@ def _cyclic(axis: Row) -> tuple[Row, ...]:
 
 
 def _offset(angle: Expr) -> Expr | None:
-    """What an angle is where its letters are zero; None unless it is linear in them."""
+    """What an angle is where its letters are zero; None unless it is a polynomial in them."""
     letters = [g for g in angle.generators if str(g) != "pi"]
     if not letters or not all(isinstance(letter, Symbol) for letter in letters):
         return None

@@ -201,8 +201,9 @@ class Rotation:
         axis: unit vector along the directions before the rotation, or after it.
         begin: unit vector along the directions before it from which the arc begins.
         offset: the angle where the arc begins, rad.
-        coordinate: published name of the coordinate that the arc is; empty for other angles.
-        sign: 1, or -1 where the coordinate turns the other way round.
+        coordinate: published name of the coordinate, or parameter, that the arc is; empty for
+            other angles.
+        sign: 1, or -1 where it turns the other way round.
     """
 
     symbol: str
