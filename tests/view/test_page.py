@@ -86,3 +86,11 @@ def test_all_that_is_in_a_scene_is_in_its_page(disk):
     turn = disk.bodies[0].pose.turn.astype("f4")
     assert np.array_equal(found["bodies"][0]["pose"]["turn"], turn)
     assert [body["name"] for body in found["bodies"]] == ["disk"]
+
+
+def test_a_constant_force_is_not_rounded(disk):
+    """A weight of 4.905 N would be shown as 4.9 N."""
+    (weight,) = (arrow for arrow in disk.arrows if arrow.kind == "load")
+    shown = replace(disk, arrows=(replace(weight, along=np.array([[0.0, 0.0, -4.905]])),))
+    (found,) = unpacked(packed_scene(shown))["arrows"]
+    assert found["along"][0, 2] == np.float32(-4.905)

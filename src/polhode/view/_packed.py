@@ -49,6 +49,8 @@ def packed_scene(shown: Scene) -> str:
 
 
 def _rounded(values: Array) -> Array:
+    if len(values) == 1:  # a constant, which is short anyway
+        return values
     mantissa, exponent = np.frexp(values)
     rounded: Array = np.ldexp(np.round(np.ldexp(mantissa, _DIGITS)), exponent - _DIGITS)
     return rounded
