@@ -27,6 +27,8 @@ export class Annotations {
   private readonly angles: AngleArcs[];
   private readonly axes: Axes[];
   private readonly components: Components[];
+  /** Everything but the arrows. */
+  private readonly drawn: (AngleArcs | Axes | Components)[];
 
   /**
    * @param reaches size of the largest body, m.
@@ -44,6 +46,7 @@ export class Annotations {
     this.components = this.arrows.filter(({ data }) => data.normal.shape[0]).map((arrow) => new Components(arrow, thick, this.letters));
     this.angles = this.makeAngles();
     this.axes = this.makeAxes(reaches);
+    this.drawn = [...this.angles, ...this.axes, ...this.components];
     this.bars = new ScaleBars(this.arrows);
     this.shown = usuallyShown(this.kinds);
     for (const { object } of this.drawn) display.own(object);
@@ -70,25 +73,35 @@ export class Annotations {
   }
 
   show(what: ArrowKind | Extra, shown: boolean): void {
-    if (what in this.extras) this.extras[what as Extra] = shown;
-    else this.shown[shown ? "add" : "delete"](what as ArrowKind);
+    this.turn(what, shown);
     this.begin();
     this.changed();
   }
 
   /** Everything that is switched on, by name. */
   get switched(): string[] {
-    return [...this.kinds, ...(Object.keys(this.extras) as Extra[])].filter((what) => this.shows(what));
+    return this.switches.filter((what) => this.shows(what));
   }
 
   set switched(names: string[]) {
-    for (const what of [...this.kinds, ...(Object.keys(this.extras) as Extra[])]) this.show(what, names.includes(what));
+    for (const what of this.switches) this.turn(what, names.includes(what));
+    this.begin();
+    this.changed();
+  }
+
+  private get switches(): (ArrowKind | Extra)[] {
+    return [...this.kinds, ...(Object.keys(this.extras) as Extra[])];
+  }
+
+  private turn(what: ArrowKind | Extra, on: boolean): void {
+    if (what in this.extras) this.extras[what as Extra] = on;
+    else this.shown[on ? "add" : "delete"](what as ArrowKind);
   }
 
   /** Keep what was switched on or off. */
   inherit(before: Annotations): void {
     Object.assign(this.extras, before.extras);
-    for (const kind of before.kinds) this.shown[before.shown.has(kind) ? "add" : "delete"](kind);
+    for (const kind of before.kinds) this.turn(kind, before.shows(kind));
   }
 
   /** Make visible what is switched on. */
@@ -141,10 +154,6 @@ export class Annotations {
   }
 
   // -- making -------------------------------------------------------------------------------------
-
-  private get drawn(): (AngleArcs | Axes | Components)[] {
-    return [...this.angles, ...this.axes, ...this.components];
-  }
 
   private makeArrows(size: number, thick: number): Arrow[] {
     const scale = scales(this.scene.arrows, size);

@@ -14,7 +14,7 @@ export const COLOURS: Record<ArrowKind, string> = {
 };
 
 /** Letters of vectors for which a model has none of its own. */
-export const LETTERS: Partial<Record<ArrowKind, string>> = {
+const LETTERS: Partial<Record<ArrowKind, string>> = {
   force: "<math><mi>F</mi></math>",
   torque: "<math><mi>τ</mi></math>",
   omega: "<math><mi>ω</mi></math>",

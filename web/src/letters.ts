@@ -39,7 +39,7 @@ export class Letters {
 
   /** Put every letter where the camera sees its place, none above another. */
   update(camera: PerspectiveCamera, width: number, height: number): void {
-    const put: { x: number; y: number; half: [number, number] }[] = [];
+    const put: Spot[] = [];
     for (const letter of this.letters) {
       const [x, y, isAhead] = this.seen(letter.place, camera, width, height);
       const isSeen = isAhead && x > 0 && x < width && y > 0 && y < height;

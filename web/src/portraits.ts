@@ -143,8 +143,8 @@ class PlanePortrait implements Portrait {
   private ticks(across: Point, up: Point): SVGElement[] {
     const label = (text: string, x: number, y: number, anchor: string): SVGElement => drawn("text", { x, y, "text-anchor": anchor }, text);
     const frame = drawn("rect", { x: LEFT, y: TOP, width: WIDTH - LEFT - RIGHT, height: HEIGHT - TOP - BOTTOM, class: "frame" });
-    const marks = round(across).flatMap((x) => [label(digits(x, 3), this.place(x, up[0])[0], HEIGHT - 7, "middle")]);
-    const heights = round(up).flatMap((y) => [label(digits(y, 3), LEFT - 5, this.place(across[0], y)[1] + 4, "end")]);
+    const marks = round(across).map((x) => label(digits(x, 3), this.place(x, up[0])[0], HEIGHT - 7, "middle"));
+    const heights = round(up).map((y) => label(digits(y, 3), LEFT - 5, this.place(across[0], y)[1] + 4, "end"));
     const zero = up[0] < 0 && up[1] > 0 ? [drawn("path", { d: `M${LEFT} ${this.place(0, 0)[1]}H${WIDTH - RIGHT}`, class: "frame" })] : [];
     return [frame, ...zero, ...marks, ...heights];
   }

@@ -37,9 +37,22 @@ def _rimmed(
     more: dict[str, Any],
 ) -> Body:
     across = Expr.of(mass) * Expr.of(radius) ** 2 * share
-    moments = [2 * across if i == axes.position(axis) else across for i in range(3)]
-    surface = Rim(Expr.of(radius), axis)
-    more = {"spin": About(axis), "surface": surface, "inertia": moments, **more}
+    moments = 2 * across, across
+    return _round(name, mass, moments, axes, Rim(Expr.of(radius), axis), more)
+
+
+def _round(
+    name: str,
+    mass: ExprLike,
+    moments: tuple[Expr, Expr],
+    axes: Frame,
+    surface: Rim,
+    more: dict[str, Any],
+) -> Body:
+    """A body that is round about the axis of its surface, with its moments about and across it."""
+    about, across = moments
+    inertia = [about if i == axes.position(surface.axis) else across for i in range(3)]
+    more = {"spin": About(surface.axis), "surface": surface, "inertia": inertia, **more}
     return Body(name, mass=mass, axes=axes, **more)
 
 
@@ -101,11 +114,8 @@ def cylinder(
     """A uniform solid cylinder about `axis`, touching with the edge of its lower face."""
     mass, radius = Expr.of(mass), positive(radius, f"radius of {name!r}")
     height = positive(height, f"height of {name!r}")
-    across = mass * (3 * radius**2 + height**2) / 12
-    moments = [mass * radius**2 / 2 if i == axes.position(axis) else across for i in range(3)]
-    surface = LowerEdge(radius, axis, -height / 2)
-    more = {"spin": About(axis), "surface": surface, "inertia": moments, **more}
-    return Body(name, mass=mass, axes=axes, **more)
+    moments = mass * radius**2 / 2, mass * (3 * radius**2 + height**2) / 12
+    return _round(name, mass, moments, axes, LowerEdge(radius, axis, -height / 2), more)
 
 
 def cone(
@@ -126,11 +136,8 @@ def cone(
     mass, radius = Expr.of(mass), positive(radius, f"radius of {name!r}")
     height = positive(height, f"height of {name!r}")
     across = mass * (4 * radius**2 + height**2) * Fraction(3, 80)
-    about = mass * radius**2 * Fraction(3, 10)
-    moments = [about if i == axes.position(axis) else across for i in range(3)]
-    surface = BaseEdge(radius, axis, -height / 4, height)
-    more = {"spin": About(axis), "surface": surface, "inertia": moments, **more}
-    return Body(name, mass=mass, axes=axes, **more)
+    moments = mass * radius**2 * Fraction(3, 10), across
+    return _round(name, mass, moments, axes, BaseEdge(radius, axis, -height / 4, height), more)
 
 
 def box(

@@ -127,12 +127,9 @@ class SpeedDependence:
         A chosen speed such as J = x v_y - y v_x has the inertia m/y² where it stands for v_x: in
         units in which speeds are comparable v_x stays regular with it.
         """
-        _, inertias = self._functions
-        size = len(self.equations.speeds)
-        with np.errstate(all="ignore"):
-            found = inertias(*coordinates, *np.zeros(size), *constants, 0.0)
-            masses = np.abs(rows(found, 1)[:, 0])
-        return bool(np.max(masses[:size]) > _UNBOUNDED * np.min(masses[masses > 0], initial=np.inf))
+        masses = np.abs(self._inertias(coordinates[:, None], constants, np.array([0.0])))[:, 0]
+        own = masses[: len(self.equations.speeds)]
+        return bool(np.max(own) > _UNBOUNDED * np.min(masses[masses > 0], initial=np.inf))
 
     def is_regular(self, coordinates: Array, constants: Array, time: float) -> bool:
         """Whether the others follow from the independent speeds in one configuration."""
@@ -212,7 +209,7 @@ class SpeedDependence:
         """[1; D] in units in which speeds are comparable, shape (speeds, independent, times)."""
         speeds, dependent = self.equations.speeds, tuple(self.equations.dependent)
         size, count = len(speeds), len(times)
-        relations, inertias = self._functions
+        relations, _ = self._functions
         known = (*constants, times)
 
         def at(values: Array) -> Array:
@@ -226,11 +223,18 @@ class SpeedDependence:
         )
         unit = np.repeat(np.eye(size)[:, :, None], count, axis=2)
         matrix = np.concatenate([unit, slopes.transpose(1, 0, 2)])
-        with np.errstate(all="ignore"):
-            masses = rows(inertias(*coordinates, *np.zeros(size), *known), count)
+        masses = self._inertias(coordinates, constants, times)
         roots = np.sqrt(np.maximum(masses, _LEAST * np.max(masses, axis=0)))
         scaled: Array = roots[:, None, :] * matrix / roots[None, :size, :]
         return scaled
+
+    def _inertias(self, coordinates: Array, constants: Array, times: Array) -> Array:
+        """Of all speeds, shape (speeds, times)."""
+        _, inertias = self._functions
+        still = np.zeros(len(self.equations.speeds))
+        with np.errstate(all="ignore"):
+            found: Array = rows(inertias(*coordinates, *still, *constants, times), len(times))
+        return found
 
     @cached_property
     def _functions(self) -> tuple:  # type: ignore[type-arg]

@@ -7,7 +7,7 @@ page has a kernel that computes them for motions of its own.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from polhode.algebra import Expr, Symbol, Vector
 from polhode.derive import Equations
@@ -240,8 +240,9 @@ def arrows_in(system: System, modes: Sequence[Equations]) -> Iterator[DrawnArrow
         element = system.element(name)
         force, foot = _reaction(name, body, limited=isinstance(element, DryFriction))
         letter = inline(Expr.generator(Symbol(element.force))) if hasattr(element, "force") else ""
-        drawn = DrawnArrow("force", f"force at {name}", letter, body, "N", force, foot)
-        yield replace(drawn, normal=_normal(element), friction=_friction(element))
+        about = f"force at {name}"
+        normal, friction = _normal(element), _friction(element)
+        yield DrawnArrow("force", about, letter, body, "N", force, foot, normal, friction)
     for load in system.loads:
         for body in system.bodies:
             force = _force(load, body)

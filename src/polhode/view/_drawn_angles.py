@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 
-from polhode.algebra import ONE, ZERO, Expr, Row, Symbol, Vector, cos, sin
+from polhode.algebra import ONE, ZERO, Expr, Row, Symbol, Vector, cos, dot, rotation, sin
 from polhode.derive import Equations
 from polhode.model import Body, CurvedSupport, Frame, Pivot, System
 from polhode.view._drawn import VectorInMode, base_of, contacts_in, place_of
@@ -66,7 +66,7 @@ def angles_in(system: System) -> Iterator[DrawnAngles]:
     for angles, axes in _chains(system, drawn):
         if any(rotation.symbol for rotation in angles.rotations):
             yield angles
-        drawn.update(_chain(axes))
+        drawn.update(axes.lineage)
 
 
 def _chains(system: System, drawn: Container[Frame]) -> Iterator[tuple[DrawnAngles, Frame]]:
@@ -123,7 +123,7 @@ def _rotations(
     # where that direction points as long as all later letters, or all later angles, are zero
     lettered = unturned = _marked(axes, arm)
     following: tuple[Row, ...] = ()
-    for frame in reversed(_chain(axes)):
+    for frame in axes.lineage[:-1]:  # without the root
         offset = _offset(frame.angle)
         at_zero = offset or ZERO
         letter, sign = _lettered(frame.angle - at_zero)
@@ -138,16 +138,6 @@ def _rotations(
         lettered = tuple(_rotated(mark, frame.axis, at_zero) for mark in lettered)
         following = (frame.axis,)
     return tuple(reversed(found))
-
-
-def _chain(axes: Frame) -> list[Frame]:
-    """The frames from the one after the root to these axes."""
-    chain: list[Frame] = []
-    frame: Frame | None = axes
-    while frame is not None and frame.parent is not None:
-        chain.insert(0, frame)
-        frame = frame.parent
-    return chain
 
 
 def _marked(axes: Frame, arm: Vector | None) -> tuple[Row, ...]:
@@ -183,7 +173,7 @@ def _lettered(angle: Expr) -> tuple[Expr, int]:
 def _across(candidates: Sequence[Row], axis: Row) -> Row:
     """The part across an axis of the first direction that is not along it."""
     for direction in candidates:
-        along = _dot(direction, axis)
+        along = dot(direction, axis)
         parts = tuple(d - along * a for d, a in zip(direction, axis, strict=True))
         if any(not part.is_zero for part in parts):
             x, y, z = parts
@@ -192,14 +182,5 @@ def _across(candidates: Sequence[Row], axis: Row) -> Row:
 
 
 def _rotated(v: Row, axis: Row, angle: Expr) -> Row:
-    """A vector rotated about a unit vector, by Rodrigues' formula."""
-    c, s = cos(angle), sin(angle)
-    along = _dot(v, axis) * (1 - c)
-    (a, b, d), (x, y, z) = axis, v
-    cross = (b * z - d * y, d * x - a * z, a * y - b * x)
-    parts = [v[i] * c + cross[i] * s + axis[i] * along for i in range(3)]
-    return parts[0], parts[1], parts[2]
-
-
-def _dot(v: Row, w: Row) -> Expr:
-    return sum((a * b for a, b in zip(v, w, strict=True)), ZERO)
+    """A vector rotated about a unit vector."""
+    return rotation(axis, cos(angle), sin(angle)).times(v)

@@ -34,7 +34,7 @@ _EVENTS = 40  # listed at most
 _DEFINED = 80  # letters for long parts whose meanings are shown
 POINTS = 1501  # of a plotted curve
 _ENERGY = "energy"
-_VARIES = 1e-9  # of the largest energy: a potential one that varies by less is none to be shown
+_VARIES = 1e-9  # of the largest energy: a potential energy that varies by less is not shown
 #: Letters of the energies that are shown, by the names under which they are plotted.
 ENERGIES = {_ENERGY: "E", "kinetic energy": "T", "potential energy": "V"}
 

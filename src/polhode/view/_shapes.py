@@ -9,7 +9,7 @@ from functools import singledispatch
 import numpy as np
 
 from polhode.algebra import Expr
-from polhode.model import BaseEdge, Body, Ellipsoidal, Face, Profile, Rim, Round, Surface
+from polhode.model import Body, Ellipsoidal, Face, Rim, Round, Surface
 from polhode.view._quantities import Array
 from polhode.view._scene import BodyShape, Triple
 
@@ -41,46 +41,41 @@ class ShapeSource:
         return _RULES[self.rule](values, self.position)
 
 
-@singledispatch
 def source_of(surface: Surface | None, body: Body) -> ShapeSource:
-    """What the shape of a body with a surface follows from."""
+    """What the shape of a body with a surface follows from: its profile, if it has one."""
     profile = surface.profile if surface is not None else None
     if profile is None:
-        return ShapeSource("inertia", (body.mass, *body.inertia.entries))
-    return _outlined(profile, body)
-
-
-def _outlined(profile: Profile, body: Body) -> ShapeSource:
+        return _source_of(surface, body)
     outline = tuple(length for point in profile.outline for length in point)
     return ShapeSource("outline", outline, body.axes.position(profile.axis))
 
 
-@source_of.register
+@singledispatch
+def _source_of(surface: Surface | None, body: Body) -> ShapeSource:
+    return ShapeSource("inertia", (body.mass, *body.inertia.entries))
+
+
+@_source_of.register
 def _(surface: Round, body: Body) -> ShapeSource:
     position = body.axes.position(surface.axis) if surface.offset else 2
     return ShapeSource("round", (surface.radius, surface.offset), position)
 
 
-@source_of.register
+@_source_of.register
 def _(surface: Ellipsoidal, body: Body) -> ShapeSource:
     return ShapeSource("ellipsoidal", (*surface.half_axes, *surface.offset))
 
 
-@source_of.register
+@_source_of.register
 def _(surface: Face, body: Body) -> ShapeSource:
     return ShapeSource("face", (surface.height,))
 
 
-@source_of.register
+@_source_of.register
 def _(surface: Rim, body: Body) -> ShapeSource:
     position = body.axes.position(surface.axis)
     numbers = (surface.radius, surface.offset, body.mass, body.inertia[position, position])
     return ShapeSource("rim", numbers, position)
-
-
-@source_of.register
-def _(surface: BaseEdge, body: Body) -> ShapeSource:
-    return _outlined(surface.profile, body)
 
 
 # -- rules; a live page has the same in shape_rules.ts -------------------------------------------

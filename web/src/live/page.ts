@@ -21,7 +21,6 @@ const SAME = 1e-6; // of a duration
 
 export class LivePage {
   private readonly player = new Player();
-  readonly grips = new Grips(this.player, (name, value) => this.grip(name, value));
   private readonly panel = make("section", { class: "panel live", "aria-label": "Numbers" });
   private readonly message = make("p", { class: "message", role: "status" });
   private readonly words = make("div", { class: "words" });
@@ -45,6 +44,7 @@ export class LivePage {
     const show = make("div", { class: "show live" }, this.player.theatre, aside);
     document.body.append(make("main", {}, heading(scene), show, this.words), footer(scene));
     this.furnish();
+    new Grips(this.player, (name, value) => this.grip(name, value));
   }
 
   async open(): Promise<void> {
@@ -110,7 +110,7 @@ export class LivePage {
     select.addEventListener("change", () => {
       const chosen = presets[Number(select.value)];
       if (select.value === "" || !chosen) return this.reset();
-      this.chosen = { parameters: new Map(Object.entries(chosen.parameters)), start: new Map(Object.entries(chosen.start)), duration: chosen.duration, time: 0, view: [], shown: null };
+      this.chosen = { ...unchanged(), parameters: new Map(Object.entries(chosen.parameters)), start: new Map(Object.entries(chosen.start)), duration: chosen.duration };
       this.preset = Number(select.value);
       this.furnish();
       void this.compute(this.live.frames);
