@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from polhode.algebra import pi as pi
     from polhode.algebra import reaction as reaction
     from polhode.algebra import sech as sech
+    from polhode.algebra import shorter as shorter
     from polhode.algebra import sin as sin
     from polhode.algebra import sinh as sinh
     from polhode.algebra import speed as speed
@@ -212,8 +213,8 @@ if TYPE_CHECKING:
 _NAMES = {
     "algebra": """
         Expr Matrix Symbol SymbolKind Vector absolute compile_program coordinate coordinates cos
-        cosh exp from_sympy functions integrate is_positive pi reaction sech sin sinh speed speeds
-        sqrt symbol symbols tan tanh taylor time to_sympy
+        cosh exp from_sympy functions integrate is_positive pi reaction sech shorter sin sinh speed
+        speeds sqrt symbol symbols tan tanh taylor time to_sympy
     """,
     "analyse": """
         Ansatz Blow ClosedForm Condition Departures Invariant Invariants Lagrangian LinearIntegrals

@@ -42,8 +42,9 @@ from polhode.algebra._lengths import kept_sums as kept_sums
 from polhode.algebra._lengths import lengths_in as lengths_in
 from polhode.algebra._lengths import lengths_in_parts as lengths_in_parts
 from polhode.algebra._lengths import lengths_written_out as lengths_written_out
-from polhode.algebra._lengths import shorter as shorter
+from polhode.algebra._lengths import with_fewer_terms as with_fewer_terms
 from polhode.algebra._lengths import with_letters as with_letters
+from polhode.algebra._parts import definitions as definitions
 from polhode.algebra._parts import has_parts as has_parts
 from polhode.algebra._parts import named as named
 from polhode.algebra._parts import under_defined_letters as under_defined_letters
@@ -66,12 +67,14 @@ from polhode.algebra._ring import SymbolKind as SymbolKind
 from polhode.algebra._roots import SquareRoot as SquareRoot
 from polhode.algebra._roots import absolute as absolute
 from polhode.algebra._roots import factors as factors
+from polhode.algebra._roots import factors_of_numerator as factors_of_numerator
 from polhode.algebra._roots import is_positive as is_positive
 from polhode.algebra._roots import merged_roots as merged_roots
 from polhode.algebra._roots import principal_root as principal_root
 from polhode.algebra._roots import roots_in as roots_in
 from polhode.algebra._roots import sqrt as sqrt
 from polhode.algebra._roots import with_roots as with_roots
+from polhode.algebra._shorter import shorter as shorter
 from polhode.algebra._symbols import coordinate as coordinate
 from polhode.algebra._symbols import coordinates as coordinates
 from polhode.algebra._symbols import functions as functions
@@ -119,4 +122,4 @@ from polhode.algebra.programs._program import arrays as arrays
 from polhode.algebra.programs._stored import stored as stored
 from polhode.algebra.programs._stored import texts_of as texts_of
 
-Expr.facilities = Facilities(sqrt, from_sympy, text, pretty, latex, mathml)
+Expr.facilities = Facilities(sqrt, from_sympy, text, pretty, latex, mathml, definitions)

@@ -90,6 +90,7 @@ class Facilities:
     pretty: Callable[[Expr], str]
     latex: Callable[[Expr], str]
     mathml: Callable[[str], str]
+    definitions: Callable[[Expr], dict[str, Expr]]
 
 
 class Expr(Shown):
@@ -424,6 +425,14 @@ class Expr(Shown):
     def mathml(self) -> str:
         """Presentation MathML."""
         return self.facilities.mathml(self.latex())
+
+    def definitions(self) -> dict[str, Expr]:
+        """What letters stand for that are printed and are no symbols, by letters that come later.
+
+        They are lengths such as rho, letters given to `shorter`, and z_1, z_2, ... for expressions
+        that are too long to be written out.
+        """
+        return self.facilities.definitions(self)
 
     def _repr_latex_(self) -> str:
         return f"$\\displaystyle {self.latex()}$"

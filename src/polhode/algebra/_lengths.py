@@ -146,7 +146,7 @@ def _kept(factor: Expr) -> Expr:
     return Expr.generator(KeptSum(factor.trimmed()))
 
 
-def shorter(expression: Expr) -> Expr:
+def with_fewer_terms(expression: Expr) -> Expr:
     """An expression with kept sums multiplied out where that leaves fewer terms.
 
     Only sums are that cannot be small differences of large terms.
@@ -207,18 +207,24 @@ def _with_length(expression: Expr, root: SquareRoot, letter: LengthLetter) -> Ex
         below = below * (factor if ratio is None else ratio * rho**2) ** power
     ring = expression.ring
     plain, odd = ring.split(expression.num, ring.index[root])
-    above = [_divided(Expr(ring, part, ring.one), root.radicand, rho) for part in (plain, odd)]
+    above = [_in_squares(Expr(ring, part, ring.one), root.radicand, rho) for part in (plain, odd)]
     return (above[0] + above[1] * rho) / below
 
 
-def _divided(polynomial: Expr, radicand: Expr, rho: Expr) -> Expr:
+def divided(polynomial: Expr, divisor: Expr) -> tuple[Expr, Expr]:
+    """The quotient and the rest of a polynomial by another."""
+    ring = union(polynomial.ring, divisor.ring)
+    whole, by = (ring.lift(e.ring, e.num) for e in (polynomial, divisor))
+    quotient, rest = divmod(whole, by)
+    return Expr(ring, quotient, ring.one), Expr(ring, rest, ring.one)
+
+
+def _in_squares(polynomial: Expr, radicand: Expr, rho: Expr) -> Expr:
     """A polynomial with ρ² for the radicand, where that is shorter."""
-    ring = union(polynomial.ring, radicand.ring)
-    whole, divisor = (ring.lift(e.ring, e.num) for e in (polynomial, radicand))
-    quotient, rest = divmod(whole, divisor)
-    if len(quotient) + len(rest) >= len(whole):
+    quotient, rest = divided(polynomial, radicand)
+    if len(quotient.num) + len(rest.num) >= len(polynomial.num):
         return polynomial
-    return Expr(ring, quotient, ring.one) * rho**2 + Expr(ring, rest, ring.one)
+    return quotient * rho**2 + rest
 
 
 def kept_sums(vector: Vector, other: Triad) -> Vector:
@@ -286,13 +292,13 @@ def _in_parts(generator: Generator) -> Expr | None:
     if not isinstance(generator, Composite):
         return None
     inside = lengths_in_parts(generator.inside)
-    if isinstance(generator, KeptSum | Length):
+    if isinstance(generator, NamedPart) and not generator.is_hidden:
         return Expr.generator(NamedPart(inside))
     return None if inside is generator.inside else generator.remade(inside)
 
 
 def _written(generator: Generator) -> Expr | None:
-    if isinstance(generator, KeptSum | Length):
+    if isinstance(generator, NamedPart) and not generator.is_hidden:
         return _written_part(generator)
     if not isinstance(generator, Composite):
         return None
@@ -301,7 +307,7 @@ def _written(generator: Generator) -> Expr | None:
 
 
 @lru_cache(_MEMORY)
-def _written_part(part: KeptSum | Length) -> Expr:
+def _written_part(part: NamedPart) -> Expr:
     if isinstance(part, Length):
         return length_with_square(lengths_written_out(part.squared))
     return lengths_written_out(part.meaning)

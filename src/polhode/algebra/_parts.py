@@ -84,6 +84,32 @@ class NamedPart(Composite):
         return self.meaning.residue(point)
 
 
+@dataclass(frozen=True, eq=False)
+class Lettered(NamedPart):
+    """A quantity under a letter that somebody chose."""
+
+    letter: str
+    is_hidden = False
+    has_letter = True
+
+    @cached_property
+    def key(self) -> str:  # type: ignore[override]
+        digest = blake2b(self.meaning.key.encode(), digest_size=10).hexdigest()
+        return f"letter {self.letter} {digest}"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Lettered, (self.meaning, self.letter)
+
+    def chain(self, rate: Rate) -> Expr:
+        return self.meaning.chain(rate)
+
+    def replaced(self, image: Rate) -> Expr:
+        return self.meaning.replaced(image)
+
+    def remade(self, inside: Expr) -> Expr:
+        return inside
+
+
 @lru_cache(_MEMORY)
 def _chained(part: NamedPart, rate: Rate) -> Expr:
     slopes = ((g, part.slope(g)) for g in part.meaning.generators)
@@ -212,6 +238,12 @@ def under_defined_letters(
     }
     lengths = lettered_parts([*written[: len(expressions)], *defined.values()])
     return written[: len(expressions)], defined | {part: part.meaning for part in lengths}
+
+
+def definitions(expression: Expr) -> dict[str, Expr]:
+    """What every letter of a part stands for, in the order of use."""
+    _, defined = under_defined_letters([expression])
+    return {str(Expr.generator(letter)): meaning for letter, meaning in defined.items()}
 
 
 def lettered_parts(expressions: Iterable[Expr]) -> Iterator[NamedPart]:

@@ -196,14 +196,31 @@ def _root(radicand: Expr) -> Expr:
 
 def factors(x: Expr) -> tuple[Fraction, dict[Expr, int]]:
     """A number, and irreducible factors with their powers, negative ones below the bar."""
-    number, powers = Fraction(1), dict[Expr, int]()
-    for polynomial, sense in ((x.num, 1), (x.den, -1)):
-        content, pairs = shortest(x.ring, polynomial).factor()
-        number *= as_fraction(content) ** sense
-        for factor, exponent in pairs:
-            base = Expr(x.ring, x.ring.reduce(factor), x.ring.one)
-            powers[base] = powers.get(base, 0) + sense * int(exponent)
-    return number, {f: e for f, e in powers.items() if e}
+    number, powers = _factors_of(x.ring, shortest(x.ring, x.num))
+    below, divisors = _factors_of(x.ring, shortest(x.ring, x.den))
+    for factor, exponent in divisors.items():
+        powers[factor] = powers.get(factor, 0) - exponent
+    return number / below, {f: e for f, e in powers.items() if e}
+
+
+def factors_of_numerator(x: Expr) -> tuple[Fraction, dict[Expr, int]]:
+    """The same of a numerator, by whichever form in sines and cosines has most factors.
+
+    a² cos²α − 2 a v sin α cos α + v² sin²α is a square, which with one of the two functions alone
+    it does not look like.
+    """
+    forms = (shortest(x.ring, x.num), in_shortest_squares(x.ring, x.num))
+    found = [_factors_of(x.ring, form) for form in forms]
+    return max(found, key=lambda result: sum(result[1].values()))
+
+
+def _factors_of(ring: Ring, polynomial: Polynomial) -> tuple[Fraction, dict[Expr, int]]:
+    content, pairs = polynomial.factor()
+    powers = dict[Expr, int]()
+    for factor, exponent in pairs:
+        base = Expr(ring, ring.reduce(factor), ring.one)
+        powers[base] = powers.get(base, 0) + int(exponent)
+    return as_fraction(content), powers
 
 
 def _root_of_number(number: Fraction) -> Expr:

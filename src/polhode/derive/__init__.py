@@ -20,7 +20,7 @@ from polhode.derive._equations import equations_only as equations_only
 from polhode.derive._equations import is_angle as is_angle
 from polhode.derive._equations import lettered as lettered
 from polhode.derive._equations import symbols_of as symbols_of
-from polhode.derive._equations import without_idle_factors as without_idle_factors
+from polhode.derive._idle_factors import without_idle_factors as without_idle_factors
 from polhode.derive._speed_choice import inertia_of as inertia_of
 from polhode.derive._speed_choice import may_be_singular as may_be_singular
 from polhode.derive._speed_choice import may_become_singular as may_become_singular

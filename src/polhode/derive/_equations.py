@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
-from math import gcd, lcm
 from typing import ClassVar
 
 from polhode.algebra import (
@@ -25,7 +24,6 @@ from polhode.algebra import (
     has_parts,
     keeps_lengths,
     lengths_in,
-    lowest_numerator,
     roots_in,
     under_letters,
     variables,
@@ -38,6 +36,7 @@ from polhode.derive._accelerations import accelerations_in_parts, solve_accelera
 from polhode.derive._applied_loads import actions_of
 from polhode.derive._balance import ReactionColumn, Wrench
 from polhode.derive._form import CLOSED, IN_LENGTHS, IN_PARTS, Form, in_lengths
+from polhode.derive._idle_factors import without_idle_factors
 from polhode.derive._length_letters import letters_of_lengths
 from polhode.derive._motion import Kinematics
 from polhode.derive._reactions import Reactions, SupportRank, solve_reactions, support_rank
@@ -526,36 +525,6 @@ def equations_only(given: object, what: str) -> None:
             expected="equations of motion",
             advice="derive them first: ph.derive(system)",
         )
-
-
-def without_idle_factors(row: Expr) -> Expr:
-    """Numerator without the number, parameters and sines common to all terms; over lengths.
-
-    The quotient vanishes on every motion where the sine is not zero, and by continuity elsewhere.
-    """
-    numerator = lowest_numerator(row)
-    terms = list(numerator.terms())
-    if not terms:
-        return row
-    idle = _common(
-        (powers for powers, _ in terms),
-        lambda g: not isinstance(g, Symbol) or g.kind is SymbolKind.PARAMETER,
-    )
-    above = gcd(*(abs(c.numerator) for _, c in terms))
-    below = lcm(*(c.denominator for _, c in terms))
-    lengths = _common(
-        (powers for powers, _ in row.denominator.terms()), lambda g: isinstance(g, Length)
-    )
-    return numerator * below / above / Expr.product(idle) / Expr.product(lengths)
-
-
-def _common(
-    terms: Iterable[Mapping[Generator, int]], wanted: Callable[[Generator], bool]
-) -> dict[Generator, int]:
-    """The powers of the wanted generators that all terms have in common."""
-    first, *others = terms
-    chosen = (g for g in first if wanted(g))
-    return {g: min(powers.get(g, 0) for powers in (first, *others)) for g in chosen}
 
 
 def is_angle(equations: Equations, symbol: Symbol) -> bool:

@@ -24,7 +24,7 @@ from polhode.algebra import (
     lengths_written_out,
     named,
     refuse_long,
-    shorter,
+    with_fewer_terms,
     with_letters,
 )
 
@@ -95,7 +95,7 @@ def _short_lengths_written_out(expression: Expr) -> Expr:
 
 
 def _shorter(expression: Expr, visible: Iterable[Symbol]) -> Expr:
-    return shorter(expression)
+    return with_fewer_terms(expression)
 
 
 def _refuse_outgrown(expressions: Iterable[Expr]) -> None:

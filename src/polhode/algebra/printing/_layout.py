@@ -28,7 +28,7 @@ from polhode.algebra._forms import (
 )
 from polhode.algebra._functions import Elementary, Exponential
 from polhode.algebra._lengths import KeptSum, Length
-from polhode.algebra._parts import under_letters
+from polhode.algebra._parts import Lettered, under_letters
 from polhode.algebra._ring import Generator, Monomial, Polynomial, Ring, Symbol, as_fraction
 from polhode.algebra._roots import SquareRoot, is_plainly_positive
 from polhode.algebra.printing._nodes import (
@@ -312,6 +312,8 @@ def _generator(generator: Generator) -> PrintNode:
             if generator.letter.of_velocity:
                 letter = PrintCall("abs", letter)
             return PrintLetter(letter, layout(generator.meaning))
+        case Lettered():
+            return PrintLetter(PrintName(Symbol(generator.letter)), layout(generator.meaning))
     raise TypeError(f"{generator.key} is no symbol or function")
 
 

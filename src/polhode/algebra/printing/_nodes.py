@@ -42,7 +42,7 @@ class Style(Protocol[T_co]):
         """A square root."""
 
     def letter(self, letter: PrintNode, meaning: PrintNode) -> T_co:
-        """A letter, or the absolute value of one, for a length."""
+        """A letter, or the absolute value of one, for a quantity."""
 
 
 class PrintNode(ABC):
@@ -197,7 +197,7 @@ class PrintRadical(PrintNode):
 
 @dataclass(frozen=True)
 class PrintLetter(PrintNode):
-    """A letter, or the absolute value of one, for a length that is defined elsewhere."""
+    """A letter, or the absolute value of one, for a quantity that is defined elsewhere."""
 
     letter: PrintNode
     meaning: PrintNode

@@ -8,6 +8,7 @@ from functools import lru_cache
 
 from polhode.algebra._functions import Elementary, Even
 from polhode.algebra._lengths import KeptSum, Length
+from polhode.algebra._parts import Lettered
 from polhode.algebra._ring import Generator, Monomial, Ring, Symbol, SymbolKind
 from polhode.algebra.printing._names import Spelling
 
@@ -40,6 +41,8 @@ def factor_rank(generator: Generator) -> Rank:
     if isinstance(generator, KeptSum):
         names = sorted(_place(s) for s in generator.symbols())
         return (*(CONSTANT_SUM if is_constant(generator) else VARYING_SUM), names, generator.key)
+    if isinstance(generator, Lettered):
+        return (1, 3, generator.letter)
     if isinstance(generator, Elementary):
         names = sorted(_place(s) for s in generator.symbols())
         return (3, names, generator.family.sign, isinstance(generator, Even), generator.key)
