@@ -16,8 +16,8 @@ from polhode.algebra import (
     kept_sum,
     lengths_in,
     lengths_written_out,
-    with_fewer_terms,
     to_sympy,
+    with_fewer_terms,
     with_letters,
 )
 

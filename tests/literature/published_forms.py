@@ -166,6 +166,82 @@ def dumbbell() -> ph.System:
     )
 
 
+def on_a_shaken_pivot() -> ph.System:
+    """A pendulum whose pivot moves up and down as Z(t)."""
+    bob = ph.point_mass("bob", mass=m, axes=LAB.rotated(theta, "y"))
+    (height,) = ph.functions("Z")
+    pivot = ph.Pivot(bob, at=bob.axes["z"] * l, to=LAB["z"] * height)
+    return ph.System(pivot, ph.Gravity(g))
+
+
+def kepler_in_polar_coordinates() -> ph.System:
+    body = ph.point_mass("planet", mass=m, axes=LAB)
+    placed = ph.Pivot(body, to=LAB.rotated(theta, "z")["x"] * r, name="plane")
+    return ph.System(placed, ph.Potential(-k / r, on=[body]))
+
+
+def swinging_atwood() -> ph.System:
+    bob = ph.point_mass("bob", mass=m, axes=LAB, tag="1")
+    weight = ph.point_mass("weight", mass=M, axes=LAB, tag="2")
+    placed = ph.Pivot(bob, to=LAB.rotated(theta, "y")["z"] * -r, name="plane")
+    guide = ph.Pivot(weight, to=X * R, only="x y", name="guide", force="G")
+    rope = ph.Constraint("z_2 - r = c", on=(bob, weight), where={"r": r, "c": c})
+    return ph.System(placed, guide, rope, ph.Gravity(g))
+
+
+def in_a_turning_tube() -> ph.System:
+    """A bead in a straight tube that turns about the vertical at a given rate."""
+    tube = LAB.rotated(Omega * ph.time, "z")
+    bead = ph.point_mass("bead", mass=m, axes=tube)
+    return ph.System(ph.Pivot(bead, to=tube["x"] * r, name="tube"))
+
+
+def governor() -> ph.System:
+    """Two balls on arms from the top of a shaft, two more down to a sleeve on it."""
+    tau = LAB.rotated(Omega * ph.time, "z")
+    balls = []
+    for side, tag in ((1, "1"), (-1, "2")):
+        arm = tau.rotated(theta * side, "y")
+        ball = ph.point_mass(f"ball {tag}", mass=m, axes=arm, tag=tag)
+        balls.append(ph.Pivot(ball, at=arm["z"] * a, name=f"arm {tag}", force=f"A{tag}"))
+    sleeve = ph.point_mass("sleeve", mass=M, axes=tau, tag="s")
+    shaft = ph.Pivot(sleeve, only="x y", name="shaft", force="S")
+    lower = ph.Constraint("z_s + 2*a*cos(theta) = 0", on=(balls[0].body, sleeve), where={"a": a})
+    return ph.System(*balls, shaft, lower, ph.Gravity(g))
+
+
+def compound_atwood() -> ph.System:
+    """Two weights on a rope over a pulley with a moment of inertia, which it does not slip on."""
+    m_1, m_2 = ph.symbols("m_1 m_2", positive=True)
+    alpha = ph.coordinate("alpha")
+    wheel = ph.Body("wheel", mass=M, inertia=(I, I, I), axes=LAB.rotated(alpha, "y"), tag="w")
+    parts = [ph.Pivot(wheel, name="axle"), ph.Hinge(wheel, axis="y")]
+    for mass, side, tag in ((m_1, 1, "1"), (m_2, -1, "2")):
+        weight = ph.point_mass(f"weight {tag}", mass=mass, axes=LAB, tag=tag)
+        rope = f"z_{tag} + {side}*R*alpha = 0"
+        parts += [
+            ph.Pivot(weight, only="x y", name=f"guide {tag}", force=f"G{tag}"),
+            ph.Constraint(
+                rope, on=(weight, wheel), where={"R": R}, name=f"rope {tag}", force=f"Q_{tag}"
+            ),
+        ]
+    return ph.System(*parts, ph.Gravity(g))
+
+
+def furuta() -> ph.System:
+    """A pendulum in the plane across the end of an arm that turns about the vertical."""
+    phi, L = ph.coordinate("phi"), ph.symbol("L", positive=True)
+    arm_axes = LAB.rotated(phi, "z")
+    arm = ph.Body("arm", mass=M, inertia=(I, I, I), axes=arm_axes, tag="a")
+    bob = ph.point_mass("bob", mass=m, axes=arm_axes.rotated(theta, "x"), tag="b")
+    return ph.System(
+        ph.Pivot(arm, name="axle"),
+        ph.Hinge(arm, axis="z"),
+        ph.Pivot(bob, at=bob.axes["z"] * l, to=arm.point(arm_axes["x"] * L), name="joint"),
+        ph.Gravity(g),
+    )
+
+
 def _each(row: str, axes: str = "xyz") -> tuple[str, ...]:
     """A row for each axis, which stands in it as @."""
     return tuple(row.replace("@", axis) for axis in axes)
@@ -354,6 +430,65 @@ FORMS: dict[str, PublishedForm] = {
             "(I_2 + M*a**2)*(theta_ddot - phi_dot**2*sin(theta)*cos(theta))"
             " + I_1*omega_1*phi_dot*sin(theta) - M*g*a*sin(theta)",
             "omega_1_dot",
+        ),
+    ),
+    "cylinder in a cylinder": PublishedForm(
+        f"{_LANDAU}, § 32, problem 6, with a ω for the speed of the axis",
+        of_catalogue("cylinder-in-cylinder"),
+        ("3*a*omega_v_dot - 2*g*sin(u)",),
+    ),
+    "cylinder on a free wedge": PublishedForm(
+        "Lagrange's equations with the speed of the wedge and a ω, that of the axis down it",
+        of_catalogue("cylinder-on-wedge"),
+        (
+            "3*a*omega_x_dot - 2*v_y_w_dot*cos(alpha) - 2*g*sin(alpha)",
+            "v_x_w_dot",
+            "(M + m)*v_y_w_dot - m*a*omega_x_dot*cos(alpha)",
+        ),
+    ),
+    "pendulum on a shaken pivot": PublishedForm(
+        f"{_LANDAU}, § 30, before averaging",
+        on_a_shaken_pivot,
+        ("l*theta_ddot + (g + Z_ddot)*sin(theta)",),
+    ),
+    "planet in polar coordinates": PublishedForm(
+        f"{_GOLDSTEIN}, eqs. (3.8) and (3.11)",
+        kepler_in_polar_coordinates,
+        ("m*r_ddot - m*r*theta_dot**2 + k/r**2", "r*(r*theta_ddot + 2*r_dot*theta_dot)"),
+    ),
+    "swinging Atwood machine": PublishedForm(
+        "N. Tufillaro, T. Abbott and D. Griffiths, Am. J. Phys. 52 (1984) 895",
+        swinging_atwood,
+        (
+            "(M + m)*r_ddot - m*r*theta_dot**2 + M*g - m*g*cos(theta)",
+            "r*(r*theta_ddot + 2*r_dot*theta_dot + g*sin(theta))",
+        ),
+    ),
+    "bead in a turning tube": PublishedForm(
+        f"{_GOLDSTEIN}, § 1.6", in_a_turning_tube, ("r_ddot - r*Omega**2",)
+    ),
+    "centrifugal governor": PublishedForm(
+        f"Lagrange's equation of {_LANDAU}, § 5, problem 4",
+        governor,
+        (
+            "a*(m + 2*M*sin(theta)**2)*theta_ddot + 2*M*a*theta_dot**2*sin(theta)*cos(theta)"
+            " - m*a*Omega**2*sin(theta)*cos(theta) + (m + M)*g*sin(theta)",
+        ),
+    ),
+    "Atwood's machine with a pulley": PublishedForm(
+        "Kleppner and Kolenkow, An Introduction to Mechanics, example 6.10",
+        compound_atwood,
+        ("(I + (m_1 + m_2)*R**2)*alpha_ddot - (m_1 - m_2)*g*R",),
+    ),
+    "Furuta's pendulum": PublishedForm(
+        "Lagrange's equations of an arm with a point mass on a rod",
+        furuta,
+        (
+            "(I + m*L**2 + m*l**2*sin(theta)**2)*phi_ddot + m*L*l*theta_ddot*cos(theta)"
+            " + 2*m*l**2*phi_dot*theta_dot*sin(theta)*cos(theta)"
+            " - m*L*l*theta_dot**2*sin(theta)",
+            "l*theta_ddot + L*phi_ddot*cos(theta) - l*phi_dot**2*sin(theta)*cos(theta)"
+            " + g*sin(theta)",
         ),
     ),
     "free rigid body": PublishedForm(

@@ -118,7 +118,7 @@ def test_the_tension_of_a_rope_has_its_letter():
         )
     )
     shown = [step.latex for step in found.sections["Forces of the supports"]]
-    below = r"I + m_1 R^2 + m_2 R^2"
+    below = r"I + R^2 \left(m_1 + m_2\right)"
     assert rf"S_1 = \frac{{m_1 g \left(I + 2 m_2 R^2\right)}}{{{below}}}" in shown
     assert "letters for the components" not in words_of(found)
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 from itertools import count
 from math import isqrt
 
-from polhode.algebra._expression import Expr, ExprLike, total
+from polhode.algebra._expression import ZERO, Expr, ExprLike, total
 from polhode.algebra._lengths import (
     Length,
     LengthLetter,
@@ -20,7 +20,7 @@ from polhode.algebra._lengths import (
 from polhode.algebra._parts import Lettered
 from polhode.algebra._ring import Generator
 from polhode.algebra._roots import SquareRoot, factors
-from polhode.algebra._symbols import is_name
+from polhode.algebra._symbols import symbol
 from polhode.algebra.printing._layout import layout
 from polhode.base import DeclarationError
 
@@ -55,7 +55,8 @@ def shorter(expression: ExprLike, **letters: ExprLike) -> Expr:
 def _refuse_other_meanings(given: Expr, letters: Mapping[str, Expr]) -> None:
     known = {s.published for s in given.symbols()}
     for name, meaning in letters.items():
-        if not is_name(name) or name in known:
+        symbol(name)
+        if name in known:
             raise DeclarationError(
                 f"the letter {name} for {meaning}",
                 expected="a letter that the expression has for nothing else",
@@ -106,12 +107,33 @@ def _in_lengths(expression: Expr, taken: set[str]) -> Expr:
 def _by_components(expression: Expr) -> Iterator[tuple[Generator, Expr]]:
     """Lengths of which the square is a sum of squares, by what is squared."""
     for length in lengths_in([expression]):
-        squares = [_root_of_square(part) for part in _independent_parts(length.squared)]
-        components = [square for square in squares if square is not None]
-        if not length.components and len(components) == len(squares):
+        components = _squared(length.squared)
+        if components and not length.components:
             again = kept_length(components, length.letter)
             if any(isinstance(g, Length) for g in again.generators):
                 yield length, again
+
+
+def _squared(polynomial: Expr) -> list[Expr]:
+    """What a polynomial is the sum of the squares of; nothing where that is not seen."""
+    parts = _independent_parts(polynomial)
+    varying = [part for part in parts if _varies(part)]
+    constant = [part for part in parts if not _varies(part)]
+    found = list[Expr]()
+    for part in varying:
+        # y² − 2 l y is completed by l²
+        roots = ((_root_of_square(part + term), term) for term in (ZERO, *constant))
+        root, used = next(((root, term) for root, term in roots if root is not None), (None, ZERO))
+        if root is None:
+            return []
+        found.append(root)
+        constant = [term for term in constant if term is not used]
+    left = _root_of_square(total(constant))
+    return [] if left is None else [*found, left] if constant else found
+
+
+def _varies(polynomial: Expr) -> bool:
+    return any(s.kind.varies for s in polynomial.symbols())
 
 
 def _independent_parts(polynomial: Expr) -> list[Expr]:

@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, linear_parts, shorter, solve, taylor
+from polhode.algebra import (
+    ZERO,
+    Expr,
+    Symbol,
+    SymbolKind,
+    linear_parts,
+    solve,
+    taylor,
+    with_fewer_terms,
+)
 from polhode.analyse import Lagrangian, lagrangian
 from polhode.base import NumericError
 from polhode.solution._lines import SolutionLine, inline, joined, listed
@@ -99,7 +108,7 @@ def _equations(found: Lagrangian) -> Iterator[SolutionLine]:
         words = "" if i else _introduced(found, rest)
         yield SolutionLine(words, sides, f"lagrange_{q.name}")
         momentum, slope = found.momenta[q].dt(), found.value.diff(q)
-        text = f"{momentum.latex()} = {shorter(slope + force).latex()}"
+        text = f"{momentum.latex()} = {with_fewer_terms(slope + force).latex()}"
         if len(text) <= LONGEST:
             yield SolutionLine("that is,", text, f"row_{q.name}")
         else:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from math import gcd, lcm
 
-from polhode.algebra import ONE, Expr, Symbol, Vector, shorter, sqrt
+from polhode.algebra import ONE, Expr, Symbol, Vector, sqrt, with_fewer_terms
 from polhode.algebra import latex as latex_of
 from polhode.derive import Equations
 from polhode.judge import Verdict
@@ -73,7 +73,7 @@ def unit(label: str) -> str:
 
 def vector_latex(vector: Vector, frame: Frame) -> str:
     """A vector by components along a frame, with the factor common to them in front."""
-    components = map(shorter, vector.express(frame).components)
+    components = map(with_fewer_terms, vector.express(frame).components)
     parts = dict(zip(frame.labels, components, strict=True))
     present = {label: value for label, value in parts.items() if value}
     if not present:

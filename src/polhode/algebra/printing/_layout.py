@@ -19,6 +19,7 @@ from polhode.algebra._forms import (
     LONGEST_TO_FACTOR,
     Factored,
     content,
+    extracted,
     factorised,
     in_shortest_squares,
     over_cosines,
@@ -65,6 +66,9 @@ _MUCH = 0.85
 #: Of more terms than this, the form with sums of angles is taken where it has much fewer, and only
 #: there; of fewer, the shorter one once both are written.
 _MANY = 12
+
+#: Of at most so many terms, some are put in brackets behind what they have in common.
+_FEW = 8
 
 _SUMS = 16384  # sums whose form is remembered
 
@@ -160,7 +164,34 @@ def _scaled_sum(ring: Ring, polynomial: Polynomial, scale: Factored) -> PrintNod
         if 1 < len(groups) < len(polynomial):
             other = _collected(ring, groups, scale)
             collected = other if other.size < much * collected.size else collected
+    if len(polynomial) <= _FEW:
+        bracketed = _shortest([collected, *_bracketed(ring, polynomial, scale)])
+        collected = bracketed if bracketed.size < _MUCH * collected.size else collected
     return collected
+
+
+def _bracketed(ring: Ring, polynomial: Polynomial, scale: Factored) -> Iterator[PrintNode]:
+    """With the terms together that have one generator in common: l θ̈ + (g + Z̈) sin θ."""
+    monomials = sorted(polynomial.monoms(), key=term_order(ring).rank)
+    for place in range(len(ring.generators)):
+        shared = [m for m in monomials if m[place]]
+        # 2 a² + 2 a b + b² stays as it is
+        if len({int(m[place]) for m in shared}) != 1 or not 1 < len(shared) < len(monomials):
+            continue
+        inner = _chosen(ring, polynomial, shared)
+        together = _shortest(_term(ring, scale * form) for form in _products(ring, inner))
+        start = monomials.index(shared[0])
+        apart = monomials[:start], [m for m in monomials[start:] if not m[place]]
+        first, last = (
+            _addends(_scaled_sum(ring, _chosen(ring, polynomial, part), scale)) if part else ()
+            for part in apart
+        )
+        yield total([*first, *_addends(together), *last])
+
+
+def _chosen(ring: Ring, polynomial: Polynomial, monomials: Iterable[Monomial]) -> Polynomial:
+    """Some of its terms."""
+    return ring.context.from_dict({m: polynomial[m] for m in monomials})
 
 
 def _gathered_by_sum(
@@ -226,7 +257,11 @@ def _collected(
         else:
             scaled = (scale * term for term in terms(ring, coefficient))
             ordered = sorted(scaled, key=lambda term: term_rank(term.powers))
-            nodes += _addends(total([_term(ring, term) for term in ordered]))
+            written = total([_term(ring, term) for term in ordered])
+            if nodes:
+                bracket = _term(ring, scale * extracted(ring, coefficient))
+                written = _shortest([written, bracket])
+            nodes += _addends(written)
     return total(nodes)
 
 
