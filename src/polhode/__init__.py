@@ -152,6 +152,8 @@ if TYPE_CHECKING:
     from polhode.model import Weld as Weld
     from polhode.model import WithAxes as WithAxes
     from polhode.model import box as box
+    from polhode.model import centre_of_mass as centre_of_mass
+    from polhode.model import compound as compound
     from polhode.model import cone as cone
     from polhode.model import cylinder as cylinder
     from polhode.model import disk as disk
@@ -237,8 +239,8 @@ _NAMES = {
         KnifeEdge Load MagneticMoment Motor Parametric Pivot Plane Potential Profile Rack Relative
         Revolution Rim Rolling RollingResistance Rope Round Screw Sheet Slider Smooth Sphere Spring
         Surface System Torque TorsionDamper TorsionSpring Torus Turntable Universal Weld WithAxes
-        box cone cylinder disk earth ellipsoid hoop point_mass rod sphere upright with_edge
-        with_friction
+        box centre_of_mass compound cone cylinder disk earth ellipsoid hoop point_mass rod sphere
+        upright with_edge with_friction
     """,
     "simulate": "Pieces Trajectory approximated export load read_sheet sampled simulate",
     "solution": "Solution solution write_solution",

@@ -6,6 +6,8 @@ from polhode.model._body import TwoPointLink as TwoPointLink
 from polhode.model._body import check_inertia as check_inertia
 from polhode.model._body import check_mass as check_mass
 from polhode.model._body import second_moments as second_moments
+from polhode.model._compound import centre_of_mass as centre_of_mass
+from polhode.model._compound import compound as compound
 from polhode.model._cone import Cone as Cone
 from polhode.model._conjugate import OWN_COORDINATES as OWN_COORDINATES
 from polhode.model._constraint import Constraint as Constraint
