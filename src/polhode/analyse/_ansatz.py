@@ -24,7 +24,9 @@ from polhode.algebra import (
     Symbol,
     SymbolKind,
     cos,
+    dot,
     eliminate,
+    length,
     sin,
     time,
     variables,
@@ -228,16 +230,39 @@ def _coefficients(rates: Sequence[Expr]) -> Row | None:
     )
     for column, rate in enumerate(rates):
         scaled = rate * common
-        for powers, number in scaled.terms():
-            key = frozenset((g, p) for g, p in powers.items() if not _is_constant(g))
-            constant = {g: p for g, p in powers.items() if _is_constant(g)}
-            table[key][column] = table[key][column] + Expr.product(constant, number)
-    outcome = eliminate(list(table.values()), [ZERO] * len(table), [0] * len(rates))
-    if len(outcome.free) != 1:
+        ring = scaled.ring
+        varying = [g for g in ring.generators if not _is_constant(g)]
+        parts = ring.grouped(scaled.num, [ring.index[g] for g in varying])
+        for powers, part in parts.items():
+            key = frozenset((g, p) for g, p in zip(varying, powers, strict=True) if p)
+            table[key][column] = Expr(ring, part, ring.one)
+    rows = list(dict.fromkeys(map(tuple, table.values())))
+    values = _null_vector(_independent(rows), len(rates))
+    if values is None or any(dot(row, values) for row in rows):
+        values = _null_vector(rows, len(rates))
+    if values is None:
         return None
-    (free,) = outcome.free
-    values = [ONE if j == free else outcome.solved[j][0][0] for j in range(len(rates))]
     scale = ONE
     for value in values:
         scale = scale * (value * scale).denominator
     return tuple(value * scale for value in values)
+
+
+def _null_vector(rows: Sequence[Row], width: int) -> list[Expr] | None:
+    """The only solution of homogeneous equations, up to a factor; None where it is not the only."""
+    outcome = eliminate(rows, [ZERO] * len(rows), [0] * width)
+    if len(outcome.free) != 1:
+        return None
+    (free,) = outcome.free
+    return [ONE if j == free else outcome.solved[j][0][0] for j in range(width)]
+
+
+def _independent(rows: Sequence[Row]) -> list[Row]:
+    """As many short rows as there are independent ones, at random values of the parameters."""
+    ordered = sorted(rows, key=lambda row: sum(map(length, row)))
+    entries = [entry for row in ordered for entry in row]
+    (point,) = points(entries, (), 1, _SEED)
+    columns = nmod_mat(len(ordered), len(ordered[0]), point.all(entries), point.field.prime)
+    echelon, rank = columns.transpose().rref()
+    leading = (next(j for j in range(len(ordered)) if int(echelon[i, j])) for i in range(rank))
+    return [ordered[j] for j in leading]

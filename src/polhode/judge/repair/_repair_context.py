@@ -173,7 +173,14 @@ class RepairContext:
         return {n: value for n, e in known.items() if (value := self._on_domain(e)) is not None}
 
     def _on_domain(self, value: Expr) -> Expr | None:
-        """A scalar on the states where the claim should hold; None if it has no value there."""
+        """A scalar on the states where the claim should hold.
+
+        None if it has no value there, and where the motion gives it as a long expression, of which
+        nothing is a short multiple.
+        """
+        equations = self.trials.states.equations
+        if equations.in_parts and is_foreign(value, equations):
+            return None
         try:
             return self.trials.states.on(value)
         except NO_VALUE:
