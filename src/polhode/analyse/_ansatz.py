@@ -261,6 +261,8 @@ def _independent(rows: Sequence[Row]) -> list[Row]:
     """As many short rows as there are independent ones, at random values of the parameters."""
     ordered = sorted(rows, key=lambda row: sum(map(length, row)))
     entries = [entry for row in ordered for entry in row]
+    if not entries:
+        return []
     (point,) = points(entries, (), 1, _SEED)
     columns = nmod_mat(len(ordered), len(ordered[0]), point.all(entries), point.field.prime)
     echelon, rank = columns.transpose().rref()

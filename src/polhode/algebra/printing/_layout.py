@@ -165,28 +165,39 @@ def _scaled_sum(ring: Ring, polynomial: Polynomial, scale: Factored) -> PrintNod
             other = _collected(ring, groups, scale)
             collected = other if other.size < much * collected.size else collected
     if len(polynomial) <= _FEW:
-        bracketed = _shortest([collected, *_bracketed(ring, polynomial, scale)])
-        collected = bracketed if bracketed.size < _MUCH * collected.size else collected
+        saved = (1 - _MUCH) * collected.size
+        bracketed = _shortest([collected, *_bracketed(ring, polynomial, scale, saved)])
+        collected = bracketed if bracketed.size < collected.size - saved else collected
     return collected
 
 
-def _bracketed(ring: Ring, polynomial: Polynomial, scale: Factored) -> Iterator[PrintNode]:
-    """With the terms together that have one generator in common: l θ̈ + (g + Z̈) sin θ."""
-    monomials = sorted(polynomial.monoms(), key=term_order(ring).rank)
+def _bracketed(
+    ring: Ring, polynomial: Polynomial, scale: Factored, saved: float
+) -> Iterator[PrintNode]:
+    """With the terms together that have one generator in common: l θ̈ + (g + Z̈) sin θ.
+
+    Only where that may save as many nodes.
+    """
+    order = term_order(ring)
+    monomials = sorted(polynomial.monoms(), key=order.rank)
     for place in range(len(ring.generators)):
         shared = [m for m in monomials if m[place]]
         # 2 a² + 2 a b + b² stays as it is
         if len({int(m[place]) for m in shared}) != 1 or not 1 < len(shared) < len(monomials):
+            continue
+        common = [p for p in map(min, zip(*shared, strict=True)) if p]
+        if (len(shared) - 1) * (len(common) + sum(p > 1 for p in common) + 1) <= saved:
             continue
         inner = _chosen(ring, polynomial, shared)
         together = _shortest(_term(ring, scale * form) for form in _products(ring, inner))
         start = monomials.index(shared[0])
         apart = monomials[:start], [m for m in monomials[start:] if not m[place]]
         first, last = (
-            _addends(_scaled_sum(ring, _chosen(ring, polynomial, part), scale)) if part else ()
-            for part in apart
+            _groups(ring, _chosen(ring, polynomial, part), order.varying) for part in apart
         )
-        yield total([*first, *_addends(together), *last])
+        before = _addends(_collected(ring, first, scale)) if first else ()
+        after = _addends(_collected(ring, last, scale)) if last else ()
+        yield total([*before, *_addends(together), *after])
 
 
 def _chosen(ring: Ring, polynomial: Polynomial, monomials: Iterable[Monomial]) -> Polynomial:
