@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, hypot, pi
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,76 +37,80 @@ class Tag:
 
 
 @dataclass(frozen=True)
-class _Box:
-    """Where a letter may stand, and what is wrong with that."""
+class _Boxes:
+    """Where a letter may stand, and what is wrong with each place.
 
-    middle: Flat
-    half: Flat
-    cost: float
+    Attributes:
+        middles: in pixels, (places, 2).
+        half: half of its width and height, pixels.
+        costs: of the places.
+    """
 
-    def overlap(self, other: _Box) -> float:
-        """How far two boxes are one over the other, in pixels."""
-        return min(
-            self.half[i] + other.half[i] - abs(self.middle[i] - other.middle[i]) for i in (0, 1)
-        )
+    middles: NDArray[np.float64]
+    half: NDArray[np.float64]
+    costs: NDArray[np.float64]
+
+    def overlap(self, middle: NDArray[np.float64], half: NDArray[np.float64]) -> Any:
+        """How far each place is under a letter elsewhere, in pixels; negative where it is not."""
+        return (self.half + half - np.abs(self.middles - middle)).min(axis=1)
 
 
 def placed(tags: Sequence[Tag], strokes: Sequence[Stroke], size: Flat) -> tuple[Letter, ...]:
     """Every name at the place where it disturbs least."""
     lines = _points([stroke for stroke in strokes if stroke.style not in ("support", "paper")])
-    offers = [list(_offers(tag, lines, size)) for tag in tags]
-    taken: list[_Box | None] = [None] * len(tags)
+    offers = [_offers(tag, lines, size) for tag in tags]
+    taken: dict[int, NDArray[np.float64]] = {}
     for _ in range(_ROUNDS):
         for i, boxes in enumerate(offers):
-            others = [box for j, box in enumerate(taken) if j != i and box is not None]
-            costs = [_total(box, others) for box in boxes]
-            taken[i] = boxes[costs.index(min(costs))]
+            costs = boxes.costs.copy()
+            for j, middle in taken.items():
+                over = boxes.overlap(middle, offers[j].half) + 2.0
+                costs += np.where((over > 0) & (i != j), 60.0 + 20.0 * over, 0.0)
+            taken[i] = boxes.middles[costs.argmin()]
     return tuple(
-        Letter(tag.name, tag.style, box.middle)
-        for tag, box in zip(tags, taken, strict=True)
-        if box is not None
+        Letter(tag.name, tag.style, (float(taken[i][0]), float(taken[i][1])))
+        for i, tag in enumerate(tags)
     )
 
 
 def overlaps(letters: Sequence[Letter]) -> float:
     """How far letters are one over the other at the most, in pixels; negative where none are."""
-    boxes = [_Box(letter.place, _half(letter.name), 0.0) for letter in letters]
-    pairs = [a.overlap(b) for i, a in enumerate(boxes) for b in boxes[:i]]
-    return max(pairs, default=-1.0)
+    places = [np.array([letter.place]) for letter in letters]
+    boxes = [
+        _Boxes(place, _half(letter.name), np.zeros(1))
+        for place, letter in zip(places, letters, strict=True)
+    ]
+    pairs = [(a, b) for i, a in enumerate(boxes) for b in boxes[:i]]
+    return max((float(a.overlap(b.middles, b.half)[0]) for a, b in pairs), default=-1.0)
 
 
-def _total(box: _Box, others: Sequence[_Box]) -> float:
-    return box.cost + sum(60.0 + 20.0 * o for b in others if (o := box.overlap(b) + 2.0) > 0)
+def _half(name: LineName) -> NDArray[np.float64]:
+    return np.array([4.6 * name.length + 1.5, 8.5])
 
 
-def _half(name: LineName) -> Flat:
-    return 4.6 * name.length + 1.5, 8.5
-
-
-def _offers(tag: Tag, lines: NDArray[np.float64], size: Flat) -> Iterator[_Box]:
+def _offers(tag: Tag, lines: NDArray[np.float64], size: Flat) -> _Boxes:
+    """Around what is named, beginning where the name is expected."""
     half = _half(tag.name)
-    expected = atan2(tag.away[1], tag.away[0])
-    for k in range(_TURNS):
-        turn = 2 * pi * k / _TURNS
-        across, down = cos(expected + turn), sin(expected + turn)
-        reach = abs(across) * (half[0] - 4.0) + abs(down) * (half[1] - 8.0)
-        for step in _STEPS:
-            distance = step + max(reach, 0.0)
-            x = round(tag.at[0] + distance * across, 1)
-            y = round(tag.at[1] + distance * down, 1)
-            aside = min(turn, 2 * pi - turn)
-            cost = 4.0 * aside**2 + 1.2 * (step - _STEPS[0]) + _crossed((x, y), half, lines)
-            if not (half[0] < x < size[0] - half[0] and half[1] < y < size[1] - half[1]):
-                cost += 500.0
-            yield _Box((x, y), half, cost)
+    turn = np.repeat(np.arange(_TURNS) * (2 * pi / _TURNS), len(_STEPS))
+    step = np.tile(_STEPS, _TURNS)
+    angle = atan2(tag.away[1], tag.away[0]) + turn
+    across = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    reach = np.abs(across) @ (half - (4.0, 8.0))
+    middles = np.round(tag.at + (step + np.maximum(reach, 0.0))[:, None] * across, 1)
+    costs = 4.0 * np.minimum(turn, 2 * pi - turn) ** 2 + 1.2 * (step - _STEPS[0])
+    costs += _crossed(middles, half, lines)
+    outside = (middles <= half) | (middles >= size - half)
+    return _Boxes(middles, half, costs + 500.0 * outside.any(axis=1))
 
 
-def _crossed(middle: Flat, half: Flat, lines: NDArray[np.float64]) -> float:
-    """Points of lines within a box, and near it."""
-    aside = np.abs(lines - middle)
-    inside = np.count_nonzero((aside < half).all(axis=1))
-    near = np.count_nonzero((aside < (half[0] + 3.0, half[1] + 2.0)).all(axis=1))
-    return 9.0 * inside + 2.0 * near
+def _crossed(
+    middles: NDArray[np.float64], half: NDArray[np.float64], lines: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Points of lines within boxes, and near them."""
+    aside = np.abs(lines - middles[:, None])
+    inside = (aside < half).all(axis=2).sum(axis=1)
+    near = (aside < half + np.array([3.0, 2.0])).all(axis=2).sum(axis=1)
+    return np.asarray(9.0 * inside + 2.0 * near)
 
 
 def _points(strokes: Sequence[Stroke]) -> NDArray[np.float64]:

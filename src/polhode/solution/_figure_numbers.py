@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import combinations
 from math import radians
 from typing import Any
 
 from polhode.algebra import (
     PI,
+    Compiled,
     Expr,
     Symbol,
     SymbolKind,
@@ -184,9 +185,16 @@ def _apart(equations: Equations, values: dict[Symbol, float]) -> dict[Symbol, fl
 
 def value_of(expression: Expr, values: dict[Symbol, float]) -> float:
     """An expression at these values; what has none is one, a rate or coordinate zero."""
-    known = sorted((s for s in expression.symbols() if s != PI), key=lambda s: s.published)
-    numbers = [values.get(symbol, _default(symbol)) for symbol in known]
-    return float(compile_program([expression], tuple(known)).function()(*numbers)[0])
+    known, function = _function_of(expression)
+    return float(function(*(values.get(symbol, _default(symbol)) for symbol in known))[0])
+
+
+@lru_cache(maxsize=1024)
+def _function_of(expression: Expr) -> tuple[tuple[Symbol, ...], Compiled]:
+    """An expression compiled, with its symbols in order; most are asked for at many states."""
+    symbols = (symbol for symbol in expression.symbols() if symbol != PI)
+    known = tuple(sorted(symbols, key=lambda symbol: symbol.published))
+    return known, compile_program([expression], known).function()
 
 
 def _default(symbol: Symbol) -> float:
