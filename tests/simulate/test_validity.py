@@ -269,3 +269,48 @@ def test_a_start_beside_the_singular_place_of_a_chosen_speed_says_what_it_costs(
     else:
         assert not run.doubt
         assert error < 1e-9
+
+
+def ladder(**wall):
+    """On pivots that stand for a smooth floor and a smooth wall."""
+    m, l, g = ph.symbols("m l g", positive=True)
+    lab, theta = ph.Frame("lab"), ph.coordinate("theta")
+    axes = lab.rotated(theta, "y")
+    body = ph.rod("ladder", mass=m, length=2 * l, axes=axes, axis="z")
+    floor = ph.Pivot(body, at=axes["z"] * -l, only="y z", name="floor")
+    # the wall is on the left, where the upper end is for theta < 0, and pushes to the right
+    ends = ph.Pivot(body, at=axes["z"] * l, only="x", name="wall", force="W", **wall)
+    return ph.System(floor, ends, ph.Hinge(body, axis="y"), ph.Gravity(g), name="ladder")
+
+
+@pytest.mark.parametrize("precision", [None, 30])
+def test_a_joint_that_must_not_pull_is_named_where_it_would_have_to(precision):
+    """The upper end leaves the wall at two thirds of its first height."""
+    start = {"theta": "-20 deg"}
+    run = ph.simulate(
+        ladder(pulls=False), {"m": 1, "l": 1, "g": 9.81}, start, "1.3 s", precision=precision
+    )
+    start_, leaves, end = run.events
+    assert (start_.kind, leaves.kind, end.kind) == ("start", "wall pulls", "end")
+    height = np.cos(float(run.evaluate("theta", leaves.time)))
+    assert height == pytest.approx(2 / 3 * np.cos(np.radians(20)), rel=1e-12)
+    held = ph.simulate(ladder(), {"m": 1, "l": 1, "g": 9.81}, start, "1.3 s")
+    assert [event.kind for event in held.events] == ["start", "end"]
+    assert np.array_equal(
+        held["theta"], ph.simulate(held.system, held.parameters, start, "1.3 s")["theta"]
+    )
+
+
+def test_a_run_with_such_a_joint_is_saved_and_opened(tmp_path):
+    run = ph.simulate(ladder(pulls=False), {"m": 1, "l": 1, "g": 9.81}, {"theta": -0.5}, "1 s")
+    run.save(tmp_path / "ladder.polhode")
+    again = ph.load(tmp_path / "ladder.polhode")
+    assert again.system.element("wall").pulls is False
+    assert [event.kind for event in again.events] == [event.kind for event in run.events]
+
+
+def test_a_joint_that_must_not_pull_pushes_in_one_direction():
+    lab = ph.Frame("lab")
+    bob = ph.point_mass("bob", mass=1, axes=lab)
+    with pytest.raises(ph.DeclarationError, match="one direction"):
+        ph.Pivot(bob, pulls=False)

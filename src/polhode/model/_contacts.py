@@ -180,6 +180,10 @@ class Contact(ContactLaw):
         """Name of the reaction's component along a direction of the support."""
         return f"{self.force}_{label}{self.body.tag}"
 
+    @property
+    def push(self) -> str:
+        return self.component(self.on.normal)
+
     def restraint(self, label: str, places: Places) -> Restraint:
         """The restraint of the point of contact along one direction of the support."""
         arm, along, name = self.arm, self.on.axes[label], self.component(label)

@@ -178,6 +178,11 @@ class Element(Declared, ABC):
         """The coordinates it introduces for the body that it places."""
         return self.rates()
 
+    @property
+    def push(self) -> str | None:
+        """The component of its force that must not be negative; None where it may pull."""
+        return None
+
     def closures(self, places: Places) -> tuple[Expr, ...]:
         """Expressions of the configuration that must vanish (m)."""
         return ()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from polhode.algebra import Expr, ExprLike, Vector, words
 from polhode.base import DeclarationError
@@ -244,10 +244,16 @@ class Pivot(Element):
             may turn: two of three along axes of the other body make a slot of that body in which
             the point slides; along axes of its own body, a slot that slides over a fixed pin.
         force: letter of the components.
+        pulls: whether its force may have either sign. One that stands for a contact does not pull:
+            it holds in one direction, along which it pushes, and where it would have to pull a run
+            has the event "NAME pulls".
 
     Raises:
-        DeclarationError: for a point that is not fixed in its body.
+        DeclarationError: for a point that is not fixed in its body, and for one that does not pull
+            but holds in several directions.
     """
+
+    omitted: ClassVar[tuple[str, ...]] = ("pulls",)
 
     body: Body
     at: Vector
@@ -256,6 +262,7 @@ class Pivot(Element):
     only: tuple[str, ...]
     name: str
     force: str
+    pulls: bool | None
 
     def __init__(
         self,
@@ -267,6 +274,7 @@ class Pivot(Element):
         only: str | Sequence[str] = "",
         name: str = "",
         force: str = "F",
+        pulls: bool | None = None,
     ) -> None:
         called = name or f"pivot{getattr(body, 'tag', '')}"
         of_type(body, Body, f"the body of {called!r}", "give the body that it holds")
@@ -284,7 +292,14 @@ class Pivot(Element):
             only=_directions(only, axes, called),
             name=called,
             force=force,
+            pulls=None if pulls else pulls,
         )
+        if self.pulls is False and len(self.only) > 1:
+            raise DeclarationError(
+                f"{called!r}, which does not pull and holds along {', '.join(self.only)}",
+                expected="one direction, along which it pushes",
+                advice=f"as in only={self.only[-1]!r}, with another Pivot for the others",
+            )
         body.point(self.at).require_fixed(f"point of {self.name!r}")
         if isinstance(self.to, BodyPoint):
             self.to.require_fixed(f"other point of {self.name!r}")
@@ -309,6 +324,10 @@ class Pivot(Element):
         axes, along = self.body.axes, self.to.triad
         hidden = isinstance(along, Frame) and along.turns_freely and along not in axes.lineage
         return self.to.express(axes.root) if hidden else self.to
+
+    @property
+    def push(self) -> str | None:
+        return None if self.pulls is None else f"{self.force}_{self.only[0]}{self.body.tag}"
 
     @property
     def is_partial(self) -> bool:

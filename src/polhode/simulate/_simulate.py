@@ -32,7 +32,7 @@ from polhode.simulate._task import MotionResult, Prepared, Task, timed
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate._validity import (
     doubt_about,
-    pulling_contacts,
+    pulling_elements,
     refuse_lost_side,
     slack_ropes,
     warn_of,
@@ -222,7 +222,7 @@ class Experiment:
         )
         if motion.unguarded:
             refuse_lost_side(trajectory)
-        lost = [*pulling_contacts(trajectory, motion.unguarded), *slack_ropes(trajectory)]
+        lost = [*pulling_elements(trajectory, motion.unguarded), *slack_ropes(trajectory)]
         if not lost:
             return trajectory
         mode = trajectory.mode

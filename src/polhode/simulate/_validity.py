@@ -59,8 +59,8 @@ def _contacts(trajectory: Trajectory) -> list[Contact]:
     return [element for element in elements if isinstance(element, Contact)]
 
 
-def pulling_contacts(trajectory: Trajectory, unguarded: bool) -> Iterator[tuple[float, str]]:
-    """Contacts that would have to pull to stay closed: from when on, and in words.
+def pulling_elements(trajectory: Trajectory, unguarded: bool) -> Iterator[tuple[float, str]]:
+    """Contacts, and joints that stand for one, that would have to pull: from when on, and in words.
 
     Of forces that Newton's laws leave open, those of least norm are looked at: with others the
     contact might push.
@@ -71,13 +71,14 @@ def pulling_contacts(trajectory: Trajectory, unguarded: bool) -> Iterator[tuple[
     equations: Any = trajectory.equations
     if len({segment.mode for segment in trajectory.segments}) > 1:
         return
-    for contact in _contacts(trajectory):
-        normal = f"{contact.force}_{contact.on.normal}{contact.body.tag}"
-        is_open = normal in equations.undetermined
-        if unguarded and (is_open or normal in trajectory.reactions):
-            time = _first_fall(trajectory, equations.least[normal] if is_open else normal)
+    for element in getattr(equations.system, "elements", ()):
+        push = element.push
+        is_open = push in equations.undetermined
+        opens = isinstance(element, Contact) and not unguarded
+        if push is not None and not opens and (is_open or push in trajectory.reactions):
+            time = _first_fall(trajectory, equations.least[push] if is_open else push)
             if time is not None:
-                yield time, f"{contact.name} {'may pull' if is_open else 'pulls'}"
+                yield time, f"{element.name} {'may pull' if is_open else 'pulls'}"
 
 
 def slack_ropes(trajectory: Trajectory) -> Iterator[tuple[float, str]]:
@@ -106,9 +107,20 @@ def _sampled(trajectory: Trajectory, quantity: Expr | str) -> tuple[Array, Array
 
 
 def _first_fall(trajectory: Trajectory, quantity: Expr | str) -> float | None:
+    """When a quantity is first not positive at one of the instants of a check, to rounding."""
     times, values = _sampled(trajectory, quantity)
     fallen = np.flatnonzero(~(values > 0))
-    return float(times[fallen[0]]) if fallen.size else None
+    if not fallen.size:
+        return None
+    if not fallen[0]:
+        return float(times[0])
+    above, below = float(times[fallen[0] - 1]), float(times[fallen[0]])
+    while above < (middle := (above + below) / 2) < below:
+        if float(trajectory.evaluate(quantity, middle)) > 0:
+            above = middle
+        else:
+            below = middle
+    return below
 
 
 # -- whether energy and closed loops balance to rounding -------------------------------------------
