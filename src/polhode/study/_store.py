@@ -15,6 +15,7 @@ from pathlib import Path
 from shutil import rmtree
 from signal import SIGINT, SIGTERM
 from threading import current_thread, main_thread
+from time import sleep
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -233,13 +234,21 @@ def _uninterrupted() -> Iterator[None]:
             signal.raise_signal(caught[0])
 
 
+_REMOVALS, _PAUSE = 20, 0.02  # attempts to remove a store, and s after each
+
+
 @contextmanager
 def _whole_or_gone(path: Path) -> Iterator[None]:
     """Remove a store that could not be created fully, or it would block the next attempt."""
     try:
         yield
     except BaseException:
-        rmtree(path, ignore_errors=True)
+        # Zarr's thread may still be writing other files, and makes their folders again
+        for _ in range(_REMOVALS):
+            rmtree(path, ignore_errors=True)
+            sleep(_PAUSE)
+            if not path.exists():
+                break
         raise
 
 
