@@ -39,6 +39,10 @@ def test_a_sum_is_divided_by_as_by_a_product():
     assert "p_phi" in found.definitions()
 
 
+def test_a_letter_that_is_asked_for_is_used_where_nothing_is_shorter():
+    assert ph.shorter(x_1 / x_2, z=x_2).definitions() == {"z": x_2}
+
+
 def test_factors_are_not_multiplied_out():
     assert ph.shorter((x_1 - x_2) ** 3 * (y_1 + k) ** 2).pretty() == "(k + y₁)² (x₁ − x₂)³"
 

@@ -49,7 +49,12 @@ def shorter(expression: ExprLike, **letters: ExprLike) -> Expr:
     for name, meaning in meanings.items():
         forms.append(_with_letter(forms[-1], name, meaning))
     forms += [_in_factors(form) for form in forms]
-    return min(forms, key=lambda form: layout(form).size)
+    # of forms of one size, the letters that were asked for
+    return min(forms, key=lambda form: (layout(form).size, -_letters_in(form)))
+
+
+def _letters_in(expression: Expr) -> int:
+    return sum(isinstance(g, Lettered) for g in expression.generators)
 
 
 def _refuse_other_meanings(given: Expr, letters: Mapping[str, Expr]) -> None:
