@@ -98,3 +98,20 @@ def test_long_parts_are_defined_by_later_ones():
     assert str(long) == first[0] == "z_1"
     assert "z_2" in str(first[1])
     assert second == ("z_2", k * x_1 + x_2 + y_1 * y_2 + I_3)
+
+
+def test_letters_of_an_expression_that_was_shortened_before_keep_their_meaning():
+    """A further root has another letter, and a letter cannot come to stand for something else."""
+    before = ph.shorter(k * omega_3 / BETWEEN, p=k * omega_3)
+    again = ph.shorter(before + 1 / ph.sqrt(x_1**2 + y_1**2))
+    assert len(again.definitions()) == 3
+    assert (again - k * omega_3 / BETWEEN - 1 / ph.sqrt(x_1**2 + y_1**2)).is_zero
+    assert ph.shorter(before, p=k * omega_3).definitions() == before.definitions()
+    with pytest.raises(ph.DeclarationError):
+        ph.shorter(before, p=k * x_1)
+
+
+def test_numbered_letters_of_the_expression_are_not_used_twice():
+    rho_1 = ph.symbol("rho_1")
+    found = ph.shorter(rho_1 * BETWEEN + ph.sqrt(x_1**2 + k**2))
+    assert "rho_1" not in found.definitions()

@@ -35,6 +35,7 @@ from polhode.algebra._half_angles import lowest_numerator as lowest_numerator
 from polhode.algebra._homogeneity import dimension_of as dimension_of
 from polhode.algebra._lengths import Length as Length
 from polhode.algebra._lengths import LengthLetter as LengthLetter
+from polhode.algebra._lengths import distance_letters as distance_letters
 from polhode.algebra._lengths import keeps_lengths as keeps_lengths
 from polhode.algebra._lengths import kept_length as kept_length
 from polhode.algebra._lengths import kept_sum as kept_sum
@@ -42,6 +43,7 @@ from polhode.algebra._lengths import kept_sums as kept_sums
 from polhode.algebra._lengths import lengths_in as lengths_in
 from polhode.algebra._lengths import lengths_in_parts as lengths_in_parts
 from polhode.algebra._lengths import lengths_written_out as lengths_written_out
+from polhode.algebra._lengths import numbered as numbered
 from polhode.algebra._lengths import with_fewer_terms as with_fewer_terms
 from polhode.algebra._lengths import with_letters as with_letters
 from polhode.algebra._parts import definitions as definitions

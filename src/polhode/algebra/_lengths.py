@@ -9,7 +9,7 @@ are the components that they are made of.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -35,6 +35,25 @@ class LengthLetter:
 
 
 RHO = LengthLetter("rho")
+
+_DISTANCES = ("rho", "r", "d", "distance")
+
+
+def distance_letters(keys: Iterable[str], taken: Iterable[str]) -> dict[str, LengthLetter]:
+    """Letters for distances by the keys of what they stand for: ρ, or ρ₁, ρ₂, … of several.
+
+    Another letter is used if one of the names that are taken begins with ρ.
+    """
+    stems = {name.partition("_")[0] for name in taken}
+    letter = next(letter for letter in _DISTANCES if letter not in stems)
+    return {key: LengthLetter(name) for key, name in numbered(letter, keys)}
+
+
+def numbered(letter: str, keys: Iterable[str]) -> Iterator[tuple[str, str]]:
+    """A name for each key: the letter, numbered where they are several."""
+    each = list(dict.fromkeys(keys))
+    for i, key in enumerate(each, 1):
+        yield key, letter if len(each) == 1 else f"{letter}_{i}"
 
 
 @dataclass(frozen=True, eq=False)

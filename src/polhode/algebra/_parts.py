@@ -38,7 +38,11 @@ class NamedPart(Composite):
 
     @cached_property
     def key(self) -> str:  # type: ignore[override]
-        return f"part {blake2b(self.meaning.key.encode(), digest_size=10).hexdigest()}"
+        return f"part {self._digest}"
+
+    @property
+    def _digest(self) -> str:
+        return blake2b(self.meaning.key.encode(), digest_size=10).hexdigest()
 
     def __eq__(self, other: object) -> bool:
         # A key has the names of symbols: what is a constant elsewhere may be a coordinate here.
@@ -94,8 +98,7 @@ class Lettered(NamedPart):
 
     @cached_property
     def key(self) -> str:  # type: ignore[override]
-        digest = blake2b(self.meaning.key.encode(), digest_size=10).hexdigest()
-        return f"letter {self.letter} {digest}"
+        return f"letter {self.letter} {self._digest}"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Lettered, (self.meaning, self.letter)

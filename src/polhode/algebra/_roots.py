@@ -209,8 +209,8 @@ def factors_of_numerator(x: Expr) -> tuple[Fraction, dict[Expr, int]]:
     a² cos²α − 2 a v sin α cos α + v² sin²α is a square, which with one of the two functions alone
     it does not look like.
     """
-    forms = (shortest(x.ring, x.num), in_shortest_squares(x.ring, x.num))
-    found = [_factors_of(x.ring, form) for form in forms]
+    form, other = shortest(x.ring, x.num), in_shortest_squares(x.ring, x.num)
+    found = [_factors_of(x.ring, form) for form in ([form] if form == other else [form, other])]
     return max(found, key=lambda result: sum(result[1].values()))
 
 

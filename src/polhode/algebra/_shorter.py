@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from itertools import count
-from math import isqrt
+from math import isqrt, prod
 
 from polhode.algebra._expression import ZERO, Expr, ExprLike, total
 from polhode.algebra._lengths import (
     Length,
-    LengthLetter,
+    distance_letters,
     divided,
     kept_length,
     kept_sum,
@@ -44,7 +43,8 @@ def shorter(expression: ExprLike, **letters: ExprLike) -> Expr:
     given = Expr.of(expression)
     meanings = {name: Expr.of(meaning) for name, meaning in letters.items()}
     _refuse_other_meanings(given, meanings)
-    with_lengths = _in_lengths(given, {*meanings, *(s.published for s in given.symbols())})
+    known = {s.published for s in given.symbols()}
+    with_lengths = _in_lengths(given, {*known, *given.definitions(), *meanings})
     forms = [given, with_lengths]
     for name, meaning in meanings.items():
         forms.append(_with_letter(forms[-1], name, meaning))
@@ -58,10 +58,10 @@ def _letters_in(expression: Expr) -> int:
 
 
 def _refuse_other_meanings(given: Expr, letters: Mapping[str, Expr]) -> None:
-    known = {s.published for s in given.symbols()}
+    known, defined = {s.published for s in given.symbols()}, given.definitions()
     for name, meaning in letters.items():
         symbol(name)
-        if name in known:
+        if name in known or defined.get(name, meaning) != meaning:
             raise DeclarationError(
                 f"the letter {name} for {meaning}",
                 expected="a letter that the expression has for nothing else",
@@ -102,10 +102,7 @@ def _in_lengths(expression: Expr, taken: set[str]) -> Expr:
         for g in expression.generators
         if isinstance(g, SquareRoot) and g.plain is None and len(g.radicand.num) > 1
     ]
-    stem = next(name for name in ("rho", "r", "d", "distance") if name not in taken)
-    numbered = (f"{stem}_{i}" for i in count(1)) if len(roots) > 1 else iter([stem])
-    letters = {root.key: LengthLetter(name) for root, name in zip(roots, numbered, strict=False)}
-    found = with_letters(expression, letters)
+    found = with_letters(expression, distance_letters((root.key for root in roots), taken))
     return found.recast(dict(_by_components(found)))
 
 
@@ -120,10 +117,10 @@ def _by_components(expression: Expr) -> Iterator[tuple[Generator, Expr]]:
 
 
 def _squared(polynomial: Expr) -> list[Expr]:
-    """What a polynomial is the sum of the squares of; nothing where that is not seen."""
+    """Polynomials whose squares add up to one; none where such are not seen."""
     parts = _independent_parts(polynomial)
-    varying = [part for part in parts if _varies(part)]
-    constant = [part for part in parts if not _varies(part)]
+    varying = [part for part in parts if part.varies]
+    constant = [part for part in parts if not part.varies]
     found = list[Expr]()
     for part in varying:
         # y² − 2 l y is completed by l²
@@ -137,16 +134,12 @@ def _squared(polynomial: Expr) -> list[Expr]:
     return [] if left is None else [*found, left] if constant else found
 
 
-def _varies(polynomial: Expr) -> bool:
-    return any(s.kind.varies for s in polynomial.symbols())
-
-
 def _independent_parts(polynomial: Expr) -> list[Expr]:
     """Sums of terms such that no two of them have a quantity that varies in common."""
     parts: list[tuple[set[Generator], Expr]] = []
     for powers, coefficient in polynomial.terms():
         term = Expr.product(powers) * coefficient
-        shared = {g for g in powers if any(s.kind.varies for s in g.symbols())}
+        shared = {g for g in powers if g.varies}
         joined = [part for part in parts if part[0] & shared]
         parts = [part for part in parts if not part[0] & shared]
         own = shared.union(*(generators for generators, _ in joined))
@@ -155,16 +148,13 @@ def _independent_parts(polynomial: Expr) -> list[Expr]:
 
 
 def _root_of_square(polynomial: Expr) -> Expr | None:
-    """What a polynomial is the square of; None where it is none."""
+    """The polynomial of which one is the square; None where there is none."""
     number, powers = factors(polynomial)
     root = Fraction(isqrt(abs(number.numerator)), isqrt(number.denominator))
     if root**2 != number or any(power % 2 for power in powers.values()):
         return None
     halves = (factor ** (power // 2) for factor, power in powers.items())
-    result = Expr.constant(root)
-    for half in halves:
-        result = result * half
-    return result
+    return prod(halves, start=Expr.constant(root))
 
 
 # -- factors ---------------------------------------------------------------------------------------

@@ -72,6 +72,10 @@ class Matrix(Shown):
     def __getitem__(self, position: tuple[int, int]) -> Expr:
         return self.rows[position[0]][position[1]]
 
+    def __add__(self, other: Matrix) -> Matrix:
+        pairs = zip(self.rows, other.rows, strict=True)
+        return Matrix(tuple(tuple(a + b for a, b in zip(*pair, strict=True)) for pair in pairs))
+
     def __matmul__(self, other: Matrix) -> Matrix:
         columns = other.T.rows
         return Matrix(tuple(tuple(dot(row, col) for col in columns) for row in self.rows))

@@ -24,6 +24,7 @@ from polhode.algebra import (
     Symbol,
     SymbolKind,
     cos,
+    dependent_columns,
     dot,
     eliminate,
     length,
@@ -260,11 +261,5 @@ def _null_vector(rows: Sequence[Row], width: int) -> list[Expr] | None:
 def _independent(rows: Sequence[Row]) -> list[Row]:
     """As many short rows as there are independent ones, at random values of the parameters."""
     ordered = sorted(rows, key=lambda row: sum(map(length, row)))
-    entries = [entry for row in ordered for entry in row]
-    if not entries:
-        return []
-    (point,) = points(entries, (), 1, _SEED)
-    columns = nmod_mat(len(ordered), len(ordered[0]), point.all(entries), point.field.prime)
-    echelon, rank = columns.transpose().rref()
-    leading = (next(j for j in range(len(ordered)) if int(echelon[i, j])) for i in range(rank))
-    return [ordered[j] for j in leading]
+    spare = frozenset(dependent_columns(list(zip(*ordered, strict=True))))
+    return [row for i, row in enumerate(ordered) if i not in spare]

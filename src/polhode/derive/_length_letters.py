@@ -8,11 +8,20 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 
-from polhode.algebra import Expr, LengthLetter, SquareRoot, Symbol, dimension_of, lengths_in
+from polhode.algebra import (
+    Expr,
+    LengthLetter,
+    SquareRoot,
+    Symbol,
+    dimension_of,
+    distance_letters,
+    lengths_in,
+    numbered,
+)
 from polhode.base import LENGTH, TIME, Dimension, UnitError
 from polhode.derive._motion import Kinematics
 
-_DISTANCES, _SPEEDS = ("rho", "r", "d", "distance"), ("v", "u", "w", "speed")
+_SPEEDS = ("v", "u", "w", "speed")
 
 
 def letters_of_lengths(
@@ -38,12 +47,10 @@ def letters_of_lengths(
             distances += [root.key] * (dimension == LENGTH**2)
             speeds += [root.key] * (dimension == (LENGTH / TIME) ** 2)
     taken = {symbol.published for symbol in known}
-    stems = {name.partition("_")[0] for name in taken}
-    distance = next(letter for letter in _DISTANCES if letter not in stems)
     speed = next(letter for letter in _SPEEDS if letter not in taken)
     return {
-        **{key: LengthLetter(name) for key, name in _numbered(distance, distances)},
-        **{key: LengthLetter(name, of_velocity=True) for key, name in _numbered(speed, speeds)},
+        **distance_letters(distances, taken),
+        **{key: LengthLetter(name, of_velocity=True) for key, name in numbered(speed, speeds)},
     }
 
 
@@ -66,10 +73,3 @@ def _roots_of_sums(expressions: Iterable[Expr]) -> Iterator[SquareRoot]:
             radicand = root.radicand
             if len(radicand.num) > 1 and not radicand.ring.has_parts:
                 yield root
-
-
-def _numbered(letter: str, keys: Iterable[str]) -> Iterator[tuple[str, str]]:
-    """A name for each key: the letter, numbered where they are several."""
-    each = list(dict.fromkeys(keys))
-    for i, key in enumerate(each, 1):
-        yield key, letter if len(each) == 1 else f"{letter}_{i}"

@@ -5,6 +5,7 @@ from polhode.model._body import BodyPoint as BodyPoint
 from polhode.model._body import TwoPointLink as TwoPointLink
 from polhode.model._body import check_inertia as check_inertia
 from polhode.model._body import check_mass as check_mass
+from polhode.model._body import parallel_axis as parallel_axis
 from polhode.model._body import second_moments as second_moments
 from polhode.model._compound import centre_of_mass as centre_of_mass
 from polhode.model._compound import compound as compound

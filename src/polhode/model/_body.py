@@ -9,7 +9,7 @@ from functools import cached_property
 from itertools import combinations
 from typing import Any
 
-from polhode.algebra import ONE, ZERO, Expr, ExprLike, Matrix, Vector, variables
+from polhode.algebra import ONE, ZERO, Expr, ExprLike, Matrix, Row, Vector, dot, variables
 from polhode.base import DeclarationError
 from polhode.model._declared import (
     Declared,
@@ -371,6 +371,20 @@ def second_moments(inertia: Matrix) -> Matrix:
     half = _trace(inertia) / 2
     return Matrix.of(
         [[(half if i == j else ZERO) - inertia[i, j] for j in range(3)] for i in range(3)]
+    )
+
+
+def parallel_axis(mass: Expr, place: Row) -> Matrix:
+    """m (r² 1 - r r), kg m²: what the inertia of a body is more about a point at r.
+
+    The parallel-axis theorem; it is also the inertia of a particle.
+    """
+    squared = dot(place, place)
+    return Matrix.of(
+        [
+            [mass * ((squared if i == j else ZERO) - place[i] * place[j]) for j in range(3)]
+            for i in range(3)
+        ]
     )
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from polhode.algebra import ONE, ZERO, Expr, Matrix, Row, Vector, dot, total
+from polhode.algebra import ONE, ZERO, Matrix, Vector, total
 from polhode.base import DeclarationError
-from polhode.model._body import Body
+from polhode.model._body import Body, parallel_axis
 from polhode.model._declared import is_varying, of_type
 from polhode.model._frame import Frame
 
@@ -42,7 +42,7 @@ def compound(name: str, parts: Iterable[Part], *, axes: Frame, **more: Any) -> B
         turned = body.axes.rotation_to(axes)
         own = turned @ body.inertia @ turned.T
         away = (place - centre).express(axes).components
-        inertia = _sum(inertia, own, _of_particle(body.mass, away))
+        inertia = inertia + own + parallel_axis(body.mass, away)
     mass = total(body.mass for body, _ in listed)
     return Body(name, mass=mass, axes=axes, **{"inertia": inertia, **more})
 
@@ -92,18 +92,3 @@ def _require_fixed(name: str, body: Body, place: Vector, axes: Frame) -> None:
             advice="give the parts the axes of the whole, or axes turned by constant angles from "
             "them; bodies that move on one another are joined by a Hinge or another joint",
         )
-
-
-def _of_particle(mass: Expr, place: Row) -> Matrix:
-    """m (r² 1 − r r), the inertia of a particle at r, kg m²."""
-    squared = dot(place, place)
-    return Matrix.of(
-        [
-            [mass * ((squared if i == j else ZERO) - place[i] * place[j]) for j in range(3)]
-            for i in range(3)
-        ]
-    )
-
-
-def _sum(*matrices: Matrix) -> Matrix:
-    return Matrix.of([[total(m[i, j] for m in matrices) for j in range(3)] for i in range(3)])

@@ -292,9 +292,9 @@ class Pivot(Element):
             only=_directions(only, axes, called),
             name=called,
             force=force,
-            pulls=None if pulls else pulls,
+            pulls=None if pulls is None or pulls else False,
         )
-        if self.pulls is False and len(self.only) > 1:
+        if self.pulls is not None and len(self.only) > 1:
             raise DeclarationError(
                 f"{called!r}, which does not pull and holds along {', '.join(self.only)}",
                 expected="one direction, along which it pushes",
@@ -327,7 +327,11 @@ class Pivot(Element):
 
     @property
     def push(self) -> str | None:
-        return None if self.pulls is None else f"{self.force}_{self.only[0]}{self.body.tag}"
+        return None if self.pulls is None else self.component(self.only[0])
+
+    def component(self, label: str) -> str:
+        """Name of the reaction's component along a direction."""
+        return f"{self.force}_{label}{self.body.tag}"
 
     @property
     def is_partial(self) -> bool:
@@ -379,7 +383,7 @@ class Pivot(Element):
                 velocity = velocity + self.along.angular_velocity.cross(gap)
         return tuple(
             Restraint(
-                f"{self.force}_{label}{self.body.tag}",
+                self.component(label),
                 self.body,
                 self.along[label],
                 velocity,

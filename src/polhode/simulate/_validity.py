@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from polhode.algebra import Expr
-from polhode.base import DriftWarning, NumericError
+from polhode.base import DriftWarning, NumericError, bisected
 from polhode.derive import height_of
 from polhode.model import Contact, Rope
 from polhode.simulate._closed_loops import passed_dead_point
@@ -107,20 +107,19 @@ def _sampled(trajectory: Trajectory, quantity: Expr | str) -> tuple[Array, Array
 
 
 def _first_fall(trajectory: Trajectory, quantity: Expr | str) -> float | None:
-    """When a quantity is first not positive at one of the instants of a check, to rounding."""
+    """When a quantity ceases to be positive; None where it is positive whenever it is checked."""
     times, values = _sampled(trajectory, quantity)
     fallen = np.flatnonzero(~(values > 0))
     if not fallen.size:
         return None
-    if not fallen[0]:
+    first = int(fallen[0])
+    if first == 0:
         return float(times[0])
-    above, below = float(times[fallen[0] - 1]), float(times[fallen[0]])
-    while above < (middle := (above + below) / 2) < below:
-        if float(trajectory.evaluate(quantity, middle)) > 0:
-            above = middle
-        else:
-            below = middle
-    return below
+    return bisected(
+        lambda time: float(trajectory.evaluate(quantity, time)),
+        float(times[first - 1]),
+        float(times[first]),
+    )
 
 
 # -- whether energy and closed loops balance to rounding -------------------------------------------

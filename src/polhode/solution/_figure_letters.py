@@ -63,9 +63,9 @@ def placed(tags: Sequence[Tag], strokes: Sequence[Stroke], size: Flat) -> tuple[
     for _ in range(_ROUNDS):
         for i, boxes in enumerate(offers):
             costs = boxes.costs.copy()
-            for j, middle in taken.items():
-                over = boxes.overlap(middle, offers[j].half) + 2.0
-                costs += np.where((over > 0) & (i != j), 60.0 + 20.0 * over, 0.0)
+            for j in (j for j in taken if j != i):
+                over = boxes.overlap(taken[j], offers[j].half) + 2.0
+                costs += np.where(over > 0, 60.0 + 20.0 * over, 0.0)
             taken[i] = boxes.middles[costs.argmin()]
     return tuple(
         Letter(tag.name, tag.style, (float(taken[i][0]), float(taken[i][1])))

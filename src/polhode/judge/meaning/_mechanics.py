@@ -9,12 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
 
 from polhode.algebra import (
     ZERO,
     Expr,
-    Matrix,
     Symbol,
     SymbolKind,
     Vector,
@@ -29,7 +27,18 @@ from polhode.judge.balance._declared import Placement, declared, reaction_symbol
 from polhode.judge.latex._names import name_of, spelled
 from polhode.judge.latex._tree import Node
 from polhode.judge.meaning._meaning import Meaning, Tensor
-from polhode.model import Body, Contact, Frame, Gravity, Load, Pivot, Restraint, Share, Slider
+from polhode.model import (
+    Body,
+    Contact,
+    Frame,
+    Gravity,
+    Load,
+    Pivot,
+    Restraint,
+    Share,
+    Slider,
+    parallel_axis,
+)
 
 #: In place of the name of a load, where the power of all forces is meant.
 ALL_FORCES = "all forces"
@@ -243,15 +252,11 @@ class Mechanics:
     def inertia(self, of: str = "", about: str = "cm") -> Tensor:
         """The inertia tensor about the centre of mass or another point, kg m²."""
         body = self._body(of)
-        rows = [list(row) for row in body.inertia.rows]
+        inertia = body.inertia
         if about not in ("", "cm"):
-            # The parallel-axis theorem: m (r² δ_ij - r_i r_j) more about a point at r.
             arm = (self.position(about) - self.declared.places[body]).express(body.axes)
-            square = arm.dot(arm)
-            for i, j in product(range(3), repeat=2):
-                steiner = -arm.components[i] * arm.components[j] + (square if i == j else ZERO)
-                rows[i][j] = rows[i][j] + steiner * body.mass
-        return Tensor(Matrix.of(rows), body.axes)
+            inertia = inertia + parallel_axis(body.mass, arm.components)
+        return Tensor(inertia, body.axes)
 
     def inertia_component(self, row: str, column: str) -> Expr:
         """An entry of the inertia tensor about the centre of mass along the body's axes, kg m²."""
