@@ -14,6 +14,7 @@ from math import prod
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, length, named, variables
 from polhode.base import ConstraintError, DeclarationError, Shown, look_up
+from polhode.derive._balance_table import BalanceTable, balance_table
 from polhode.derive._derive import derive
 from polhode.derive._equations import Equations
 from polhode.derive._motion import Kinematics
@@ -232,6 +233,11 @@ class Mode:
             if not phase.flies and not loose.isdisjoint(touch.contact.components)
         )
 
+    @cached_property
+    def balances(self) -> BalanceTable:
+        """The balances of its bodies, from which open reactions are found in numbers."""
+        return balance_table(self.equations)
+
     def phase(self, contact: ContactLaw) -> Phase:
         """The phase of a contact."""
         place = [touch.contact.name for touch in self.touches].index(contact.name)
@@ -297,6 +303,11 @@ class Automaton(Shown):
         """Whether the independent speeds may have to change; those that a user chose stay."""
         if self.system.speeds:
             return False
+        # Of three contacts of a body, as of the corners of a box, any two may close, on which other
+        # speeds depend than on all or none.
+        touching = [contact.body for contact in self.system.contacts]
+        if any(touching.count(body) > 2 for body in touching):
+            return True
         return any(may_become_singular(m.equations) for m in (self.together, self.separated))
 
     def on_speeds(self, speeds: Iterable[Symbol]) -> Automaton:

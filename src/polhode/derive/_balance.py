@@ -76,6 +76,11 @@ class ReactionColumn:
         return self.restraint.name
 
     @property
+    def without_friction(self) -> ReactionColumn:
+        """The same reaction without the friction and the loads that go with it."""
+        return ReactionColumn(self.restraint, self.restraint.direction)
+
+    @property
     def does_work(self) -> bool:
         """Whether forces that may do work go with the reaction: friction, or loads."""
         return bool(self.friction or self.loads)

@@ -90,7 +90,8 @@ def refuse_undetermined(solved: Reactions, working: Iterable[ReactionColumn]) ->
             f"friction or a load in proportion to {', '.join(found)}, which the balances of the "
             "bodies leave undetermined",
             expected="reactions that are determined",
-            advice="leave out a support that is redundant; a load that cancels the effect of the "
+            advice="leave out a support that is redundant, or name a law by which contacts share "
+            'a load, System(..., sharing="equal stiffness"); a load that cancels the effect of the '
             "reaction also leaves it open, as a brake that locks does; for friction along a curve "
             "declare the curve as a Constraint, whose reaction is perpendicular to it",
         )

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection, Iterable, Mapping
+
 from polhode.algebra import ZERO, Expr, SymbolKind, Vector, variables
 from polhode.derive._applied_loads import ReactionValues, actions_of
-from polhode.derive._balance import ReactionColumn
+from polhode.derive._balance import ReactionColumn, Wrench
 from polhode.derive._motion import Kinematics
-from polhode.model import Frame, Load
+from polhode.model import Body, Frame, Load
 
 
 def kinetic_energy(motion: Kinematics) -> Expr:
@@ -37,20 +39,39 @@ def reaction_power(motion: Kinematics, column: ReactionColumn, values: ReactionV
 
     Zero for a support at rest; a moving support, a motor and sliding friction do work.
     """
-    total = ZERO
-    for body, wrench in column.wrenches:
-        velocity, angular = motion.velocities[body]
-        total = total + velocity.dot(wrench.force) + angular.dot(wrench.couple)
+    total = _power_of(motion, column.wrenches)
     return total * values()[column.name] if total else ZERO
 
 
+def _power_of(motion: Kinematics, wrenches: Iterable[tuple[Body, Wrench]]) -> Expr:
+    total = ZERO
+    for body, wrench in wrenches:
+        velocity, angular = motion.velocities[body]
+        total = total + velocity.dot(wrench.force) + angular.dot(wrench.couple)
+    return total
+
+
 def supplied_power(
-    motion: Kinematics, columns: tuple[ReactionColumn, ...], values: ReactionValues
+    motion: Kinematics,
+    columns: tuple[ReactionColumn, ...],
+    values: ReactionValues,
+    required: Mapping[Body, Wrench],
+    undetermined: Callable[[], Collection[str]],
 ) -> Expr:
-    """Rate of change of kinetic plus potential energy, W."""
-    loads = (_supplied_by(motion, load, values) for load in motion.system.loads)
-    reactions = (reaction_power(motion, column, values) for column in columns)
-    return sum((*loads, *reactions), ZERO)
+    """Rate of change of kinetic plus potential energy, W.
+
+    Where open reactions do work, as those of a shaken table on four legs, that of all together is
+    what the bodies require of them.
+
+    Args:
+        required: the sum that the reactions on every body must have.
+        undetermined: names of the reactions that are open.
+    """
+    loads = sum((_supplied_by(motion, load, values) for load in motion.system.loads), ZERO)
+    working = [column for column in columns if _power_of(motion, column.wrenches)]
+    if working and not {column.name for column in working}.isdisjoint(undetermined()):
+        return loads + _power_of(motion, required.items())
+    return sum((reaction_power(motion, column, values) for column in working), loads)
 
 
 def _supplied_by(motion: Kinematics, load: Load, reactions: ReactionValues) -> Expr:

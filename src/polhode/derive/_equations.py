@@ -392,7 +392,9 @@ class Equations(Shown):
     @cached_property
     def power(self) -> Expr:
         """Rate of change of the energy: work of friction, motors, moving supports, drives, W."""
-        return energies.supplied_power(self.kinetics, self.lines, self._values)
+        return energies.supplied_power(
+            self.kinetics, self.lines, self._values, self.required, lambda: self.undetermined
+        )
 
     @cached_property
     def powers(self) -> dict[str, Expr]:

@@ -69,6 +69,7 @@ def solve_reactions(
     follow from its own balance: starting at the end of a chain keeps expressions short.
     """
     balances, spare = list(_balances(motion, required, columns)), len(motion.speeds)
+    shared = _equal_stiffness(motion, balances, columns) if motion.system.sharing else []
     works = any(column.does_work for column in columns)
     if works:
         # With friction, and with loads that depend on reactions, the equations of motion contain
@@ -82,9 +83,9 @@ def solve_reactions(
 
     def solved(those: list[_Balance]) -> Reactions:
         try:
-            return _solved(motion, motion.form, those, columns, spare)
+            return _solved(motion, motion.form, those, columns, spare, shared)
         except OutgrownError:
-            return _solved(motion, IN_PARTS, those, columns, spare)
+            return _solved(motion, IN_PARTS, those, columns, spare, shared)
 
     try:
         found = solved(chosen(()))
@@ -98,7 +99,7 @@ def solve_reactions(
     # perpendicular to it. Along the reaction itself there is no such place.
     more = [b for b in _balances(motion, required, columns, along_all=True) if b not in balances]
     try:
-        again = _solved(motion, motion.form, chosen(more), columns, spare)
+        again = _solved(motion, motion.form, chosen(more), columns, spare, shared)
     except (OutgrownError, ConstraintError):  # left over: balances that hold on closed loops only
         return found
     return again if again.singular < found.singular else found
@@ -188,6 +189,30 @@ def _balances(
                 yield _Balance(body, row, couples[i], angular, triad, i, True)
 
 
+def _equal_stiffness(
+    motion: Kinematics, balances: list[_Balance], columns: tuple[ReactionColumn, ...]
+) -> list[Row]:
+    """Combinations of reactions that vanish where contacts share a load as springs do.
+
+    With the virtual displacement δ of the bodies and one stiffness k of all contacts, pressed in
+    by J δ, the normal forces are N = k J δ. However large k is, they are perpendicular to all
+    normal forces that the bodies do not feel, Jᵀ N = 0.
+    """
+    pushes = {element.push for element in motion.elements} - {None}
+    places = [j for j, column in enumerate(columns) if column.name in pushes]
+    ideal = [columns[j].without_friction.with_loads for j in places]
+    rows = [tuple(_supplied(c.get(b.body), b) for c in ideal) for b in balances]
+    outcome = motion.form.eliminate(rows, [ZERO] * len(rows), [0] * len(ideal), ())
+    unfelt = _in_terms_of_free(outcome)
+    found = []
+    for k in range(len(outcome.free)):
+        row = [ZERO] * len(columns)
+        for place, j in enumerate(places):
+            row[j] = unfelt[place][0][k]
+        found.append(tuple(row))
+    return found
+
+
 def _held_places(motion: Kinematics) -> dict[Symbol, Expr]:
     """Coordinates that a closure keeps at one place, as a guide keeps a bar at its height.
 
@@ -219,7 +244,7 @@ def _along_reactions(
     """
     # a particle on axes that turn has balances of couples that say 0 = 0
     balances = [b for b in balances if b.required or any(b.row)]
-    ideal = [replace(c, direction=c.restraint.direction, loads=()).with_loads for c in columns]
+    ideal = [column.without_friction.with_loads for column in columns]
     every = [*balances, *more]
     supplied = [tuple(_supplied(wrenches.get(b.body), b) for b in every) for wrenches in ideal]
     kept = _selected(motion, supplied, len(every))
@@ -272,14 +297,20 @@ def _solved(
     balances: list[_Balance],
     columns: tuple[ReactionColumn, ...],
     spare: int,
+    shared: Sequence[Row],
 ) -> Reactions:
-    """Solve balances of which at most `spare` may be left over as equations of motion."""
+    """Solve balances of which at most `spare` may be left over as equations of motion.
+
+    Args:
+        shared: combinations of reactions that vanish by a law of sharing.
+    """
 
     def solve(table: Sequence[Row], values: Sequence[Expr]) -> Elimination:
         ranks = [0] * (len(table[0]) if table else len(columns))
         return form.eliminate(table, values, ranks, motion.accelerations)
 
-    outcome = solve([b.row for b in balances], [b.required for b in balances])
+    rows, right = [b.row for b in balances], [b.required for b in balances]
+    outcome = solve([*rows, *shared], [*right, *(ZERO for _ in shared)])
     leftover = tuple(outcome.leftover[i] for i in outcome.contradictory)
     if len(leftover) > spare and not (spare and _agree(leftover, motion, form)):
         if proportional := [column.name for column in columns if column.loads]:

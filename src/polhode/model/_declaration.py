@@ -172,10 +172,13 @@ def _body(**given: Any) -> Body:
     return _confirmed(Body(**named), given)  # type: ignore[no-any-return]
 
 
+_LAWS = ("impacts", "sharing")  # of a system, which may be left out
+
+
 def _system_fields(system: System) -> dict[str, Any]:
     """Its fields; without those left empty that documents have not always had."""
     found = _fields(system)
-    empty = {name for name in ("speeds", "impacts") if not found[name]}
+    empty = {name for name in ("speeds", *_LAWS) if not found[name]}
     return {name: value for name, value in found.items() if name not in empty}
 
 
@@ -183,7 +186,7 @@ def _system(**given: Any) -> System:
     parts = (*given["bodies"], *given["elements"], *given["loads"])
     speeds = given.setdefault("speeds", ())
     chosen = {symbol.name: meaning for symbol, meaning in speeds}
-    impacts = given.setdefault("impacts", "")
+    laws = {name: given.setdefault(name, "") for name in _LAWS}
     kept = given["independent"]
-    made = System(*parts, name=given["name"], independent=kept, speeds=chosen, impacts=impacts)
+    made = System(*parts, name=given["name"], independent=kept, speeds=chosen, **laws)
     return _confirmed(made, given)  # type: ignore[no-any-return]

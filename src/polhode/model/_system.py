@@ -21,6 +21,8 @@ Part = Body | Element | Load
 
 #: Laws of impacts at several contacts; without one they are refused.
 IMPACT_LAWS = ("", "Moreau")
+#: Laws by which contacts share a load where Newton's laws leave it open.
+SHARING_LAWS = ("", "equal stiffness")
 
 
 @dataclass(frozen=True, init=False)
@@ -38,6 +40,8 @@ class System(Shown):
         impacts: the law of impacts that several contacts feel at once: "Moreau", Newton's
             restitution and Coulomb's friction of the impulses at each. By default such impacts are
             refused, since rigid bodies alone do not determine them.
+        sharing: the law by which more contacts than are needed share a load: "equal stiffness", the
+            limit of supports that all give way alike. By default their forces stay open.
 
     Raises:
         DeclarationError: for parts that do not fit together, or speeds that are no speeds.
@@ -50,6 +54,7 @@ class System(Shown):
     independent: tuple[Symbol, ...]
     speeds: tuple[tuple[Symbol, Expr], ...]
     impacts: str
+    sharing: str
 
     def __init__(
         self,
@@ -58,6 +63,7 @@ class System(Shown):
         independent: Iterable[Expr] = (),
         speeds: Mapping[str | Expr, Expr] = MappingProxyType({}),
         impacts: str = "",
+        sharing: str = "",
     ) -> None:
         bodies = _bodies(parts)
         elements = tuple(part for part in parts if isinstance(part, Element))
@@ -81,6 +87,11 @@ class System(Shown):
                 f"impacts={impacts!r}",
                 expected='"Moreau", or nothing, so that impacts at several contacts are refused',
             )
+        if sharing not in SHARING_LAWS:
+            raise DeclarationError(
+                f"sharing={sharing!r}",
+                expected='"equal stiffness", or nothing, so that forces may stay open',
+            )
         _refuse_unlisted(independent, speeds)
         kept = tuple(as_symbol(speed) for speed in independent)
         values = {
@@ -91,6 +102,7 @@ class System(Shown):
             "independent": kept,
             "speeds": tuple(_speed(name, meaning) for name, meaning in speeds.items()),
             "impacts": impacts,
+            "sharing": sharing,
         }
         for field, value in values.items():
             object.__setattr__(self, field, value)
@@ -243,6 +255,7 @@ def _again(
         independent=kept if independent is None else independent,
         speeds={symbol.name: meaning for symbol, meaning in system.speeds},
         impacts=system.impacts,
+        sharing=system.sharing,
     )
 
 

@@ -26,7 +26,7 @@ from polhode.simulate._segment import TrajectoryPiece
 from polhode.simulate.contact._contact_kinematics import NO_NORMAL_SPEED, ContactKinematics, LiftOff
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.contact._mode_expressions import vanishing_expression
-from polhode.simulate.contact._mode_state import ModeState, beyond
+from polhode.simulate.contact._mode_state import ModeState, beyond, directions_of
 from polhode.simulate.contact._select_mode import painleve
 from polhode.simulate.contact._transition import index_of
 from polhode.simulate.integrate._arrays import Array, rows
@@ -149,6 +149,37 @@ class GuardMonitor:
         Raises:
             NumericError: where sliding jams before.
         """
+        fall, failure = self._first_fall(output), self._first_failure(output)
+        if fall is None or failure is None:
+            return fall or failure
+        return min(fall, failure, key=lambda found: found[0])
+
+    def _first_failure(self, output: DenseOutput) -> tuple[float, Guard] | None:
+        """Where contacts whose forces are open no longer hold."""
+        forces = self.mode.open_forces
+        if forces is None or not self._are_decided:
+            return None
+        arguments = (*output.symbols, *self.mode.dynamics.parameters, CLOCK)
+        wanted = forces.table.expressions
+        function = self.mode.dynamics.function(wanted, arguments, output.turned)
+
+        def values(places: Array) -> Array:
+            with np.errstate(all="ignore"):
+                given = (*output.at(places), *output.constants, output.times(places))
+                found: Array = rows(function(*given), len(places))
+                return found
+
+        return forces.first_failure(values, output.knots, self.hybrid.static_coefficients)
+
+    @cached_property
+    def _are_decided(self) -> bool:
+        """Whether the open forces leave it open what holds; then the bodies are at rest."""
+        forces, entry = self.mode.open_forces, self.entry.rounded()
+        directions = directions_of(entry)
+        values = self.mode.balances(entry.state, entry.shared.time, directions)
+        return forces is not None and forces.are_decided(values)
+
+    def _first_fall(self, output: DenseOutput) -> tuple[float, Guard] | None:
         # A slip speed touches zero without a change of sign: its end is found step by step.
         watched = [g for g in self.mode.mode.guards if g.kind not in self._ignored]
         watched += self.mode.side_guards

@@ -20,11 +20,7 @@ from polhode.simulate._segment import Segment
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._mode_pieces import ModePieces
 from polhode.simulate.contact._mode_state import ModeState
-from polhode.simulate.contact._speed_changes import (
-    SpeedChange,
-    closing_on_regular,
-    on_other_speeds,
-)
+from polhode.simulate.contact._speed_changes import SpeedChange, on_other_speeds
 from polhode.simulate.contact._transition import Transitions
 from polhode.simulate.integrate._stop_criteria import Stop
 
@@ -101,8 +97,7 @@ class HybridIntegrator:
                 leaving = pieces.exit(run.last)
                 entry = on_other_speeds(self._hybrid, change.speeds, entry, leaving, run.last.state)
                 continue
-            leaving = closing_on_regular(self._hybrid, entry.phases, pieces.exit(run.last))
-            kind, entry = self._transitions.next(entry, leaving)
+            kind, entry = self._transitions.next(entry, pieces.exit(run.last))
             time, before = run.segments[-1].end, pieces.name
             after = self._hybrid.mode(entry.phases).mode.name
             self._changes.append(ModeSwitch(time, kind, before, after))

@@ -11,9 +11,10 @@ import numpy as np
 from polhode.algebra import Compiled, Expr, Symbol, compile_program
 from polhode.base import NumericError
 from polhode.derive import Automaton, Mode
-from polhode.model import ContactLaw, Phase, Slipping
+from polhode.model import ContactLaw, DryFriction, Phase, Slipping
 from polhode.simulate._absolute_values import Instant, Sides, guards_of_sides, sides_at
 from polhode.simulate._dynamics import CLOCK, Dynamics
+from polhode.simulate._gimbal_lock import broken_at
 from polhode.simulate._independent_speeds import SpeedDependence
 from polhode.simulate.contact._auxiliary_states import dynamics_of
 from polhode.simulate.contact._contact_kinematics import Function, State, Touching
@@ -24,12 +25,15 @@ from polhode.simulate.contact._mode_expressions import (
     shared_state_of,
     slip_rates_of,
 )
+from polhode.simulate.contact._open_forces import OpenForces
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
 from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._stepping import IntegratedEquations, Integrator
 
 Constants = Mapping[Symbol, float]
+
+_SINGULAR = 1e15  # condition of a mass matrix with a diagonal of ones that is rounding
 
 
 class HybridSystem:
@@ -116,6 +120,14 @@ class HybridSystem:
     def separated(self) -> CompiledMode:
         """The mode in which nothing touches."""
         return self.mode(self.automaton.separated.phases)
+
+    @property
+    def static_coefficients(self) -> list[float]:
+        """Of static friction, of all contacts; infinite for those without a limit."""
+        return [
+            float(self.value(c.mu_static)) if isinstance(c, DryFriction) else np.inf
+            for c in self.automaton.contacts
+        ]
 
     @property
     def touching(self) -> Touching:
@@ -261,6 +273,13 @@ class CompiledMode(IntegratedEquations):
         found: Array = self._numbers.array([values[s] for s in self.mode.equations.coordinates])
         return found
 
+    def allowed(self, shared: State) -> tuple[Array, Array]:
+        """The shared speeds in this mode as rest + P u: `rest`, and P, its motions in columns."""
+        size, count = len(self.mode.equations.speeds), len(shared.speeds)
+        state = np.concatenate([self.coordinates(shared), self._numbers.array(np.zeros(size))])
+        found = self._projection(state, shared.time, ())
+        return found[:count], found[count:].reshape(count, size)
+
     def entered(self, shared: State) -> tuple[Array, Array]:
         """Coordinates and speeds of this mode: the shared speeds, projected on its motions.
 
@@ -270,11 +289,7 @@ class CompiledMode(IntegratedEquations):
         """
         separated, numbers = self._hybrid.separated, self._numbers
         coordinates = self.coordinates(shared)
-        size = len(self.mode.equations.speeds)
-        state = np.concatenate([coordinates, numbers.array(np.zeros(size))])
-        found = self._projection(state, shared.time, ())
-        rest, columns = found[: len(shared.speeds)], found[len(shared.speeds) :]
-        allowed = columns.reshape(len(shared.speeds), size)
+        rest, allowed = self.allowed(shared)
         momentum = separated.mass(shared) @ (shared.speeds - rest)
         reduced = allowed.T @ separated.mass(shared) @ allowed
         return coordinates, numbers.solved(reduced, allowed.T @ momentum)
@@ -287,7 +302,11 @@ class CompiledMode(IntegratedEquations):
 
         def mass(shared: State) -> Array:
             state = np.concatenate([shared.coordinates, shared.speeds])
-            return entries(state, shared.time, ()).reshape(matrix.shape)
+            found = entries(state, shared.time, ()).reshape(matrix.shape)
+            if _is_singular(np.asarray(found, dtype=float)):
+                known = dict(zip(self.mode.equations.coordinates, shared.coordinates, strict=True))
+                raise broken_at(self.mode.equations, known, float(shared.time))
+            return found
 
         return mass
 
@@ -315,6 +334,20 @@ class CompiledMode(IntegratedEquations):
         """
         forces = self.function(contact_forces_of(self.mode), self.directions)
         return lambda state, time, directions: forces(state, time, directions).reshape(-1, 3)
+
+    @cached_property
+    def open_forces(self) -> OpenForces | None:
+        """Its contacts, where Newton's laws leave some of their forces open; else None."""
+        open_ = self.mode.undetermined
+        return OpenForces(self.mode, self._hybrid.automaton.contacts) if open_ else None
+
+    @cached_property
+    def balances(self) -> Function:
+        """The balances of the bodies, as `derive.BalanceTable` has them.
+
+        A function of the state, the time, and the directions and speeds of slip.
+        """
+        return self.function(self.mode.balances.expressions, self.directions)
 
     @cached_property
     def closing_rates(self) -> Function:
@@ -375,6 +408,13 @@ class CompiledMode(IntegratedEquations):
         """Rate of the slip velocity of every contact, m/s², shape (contacts, 2)."""
         rates = self.function(self.slip_changes, self.directions)
         return lambda state, time, directions: rates(state, time, directions).reshape(-1, 2)
+
+
+def _is_singular(mass: Array) -> bool:
+    """Whether some motion has no inertia, as that of two angles in gimbal lock."""
+    sizes = np.sqrt(np.diag(mass))
+    scaled = mass / np.outer(sizes, sizes)
+    return not bool(np.all(np.isfinite(scaled)) and np.linalg.cond(scaled) < _SINGULAR)
 
 
 def singular(time: float) -> NumericError:

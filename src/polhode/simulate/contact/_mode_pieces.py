@@ -37,6 +37,7 @@ from polhode.simulate.contact._contact_kinematics import State, fall_of
 from polhode.simulate.contact._guard_monitor import GuardMonitor
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, beyond, directions_of, state_on
+from polhode.simulate.contact._onset_directions import NO_SLIP
 from polhode.simulate.contact._slip_onset import slip_onset_piece
 from polhode.simulate.contact._speed_changes import speed_change
 from polhode.simulate.contact._transition import ModeExit
@@ -83,6 +84,7 @@ class ModePieces(ABC):
         here = self._whole.instant(self.start, entry.shared.time)
         self.put_on(sides_at(self._whole.dynamics, here))
         self._has_begun = False
+        self._scale: Any = 0.0
 
     @property
     def name(self) -> str:
@@ -179,9 +181,15 @@ class ModePieces(ABC):
     # -- used by pieces in all precisions ----------------------------------------------------------
 
     def speed_scale(self, state: StateValues, now: Any) -> Any:
-        """Largest of the terms that cancel in slip velocities, m/s."""
+        """Largest of the terms that have cancelled in slip velocities so far, m/s.
+
+        It only grows: a slip that ends while everything slows down with it must still vanish
+        relative to the velocities that its rounding comes from.
+        """
         shared = shared_state(self._mode, state, now)
-        return self._hybrid.touching.scale(shared, beyond(self._entry.phases))
+        here = self._hybrid.touching.scale(shared, beyond(self._entry.phases))
+        self._scale = max(self._scale, here)
+        return self._scale
 
     def slips_in(self, symbols: Sequence[Symbol]) -> tuple[tuple[int, ...], ...]:
         """Places of slip velocities among some states, for the slips that are integrated there."""
@@ -192,7 +200,20 @@ class ModePieces(ABC):
 
     def exit(self, found: PieceEnd) -> ModeExit:
         """How the mode is left."""
-        return mode_exit(self._mode, found.guard, found.state, found.time, self._entry.shared.work)
+        work = self._entry.shared.work
+        leaving = mode_exit(self._mode, found.guard, found.state, found.time, work)
+        return replace(leaving, still=self._still(leaving.shared))
+
+    def _still(self, shared: State) -> frozenset[int]:
+        """The contacts whose slip has ended: a body that turns as it slides stops at all at once.
+
+        What counts as none is measured by the speeds that there were: those at the end of a slip
+        are themselves only rounding.
+        """
+        points = self._hybrid.touching.at(shared, beyond(self._entry.phases))
+        least = self._hybrid.numbers.finer(NO_SLIP) * self._scale
+        size = self._hybrid.numbers.size
+        return frozenset(i for i in self._entry.slips if size(points[i].velocity[:2]) <= least)
 
 
 class DoublePieces(ModePieces):
@@ -215,7 +236,6 @@ class DoublePieces(ModePieces):
         super().__init__(hybrid, entry, near_flat)
         self._progress = progress
         self._tally = tally
-        self._scale = 0.0
         self._watch = SpeedWatch(self._whole.dependence) if hybrid.speeds else None
 
     def stored_time(self, time: float) -> float:
@@ -237,11 +257,8 @@ class DoublePieces(ModePieces):
     ) -> PieceEnd:
         now = span[0]
         rest = before.solution.rest(now) if before else self._mode.rest(state, now)
-        # The scale only grows: a slip that ends while everything slows down with it must still
-        # vanish relative to the velocities that its rounding comes from.
-        if self._entry.slips:
-            self._scale = max(self._scale, self.speed_scale(state, now))
-        criteria = self._criteria(self._scale or 1.0)
+        scale = self.speed_scale(state, now) if self._entry.slips else 0.0
+        criteria = self._criteria(scale or 1.0)
         return _piece_end(*self._up_to(rest, span, criteria))
 
     def _up_to(

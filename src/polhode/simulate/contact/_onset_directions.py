@@ -11,7 +11,7 @@ import numpy as np
 
 from polhode.base import NumericError
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
-from polhode.simulate.contact._mode_state import ModeState, directions_of
+from polhode.simulate.contact._mode_state import ModeState, beyond, directions_of
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._crossing import bracketed_zeros
 
@@ -132,7 +132,8 @@ def joint_onset(hybrid: HybridSystem, entry: ModeState) -> dict[int, float] | No
     """The directions (angles, rad) in which several contacts begin to slip together.
 
     Each slip starts along its own rate, on which the friction of all depends. Found by iteration
-    from the directions that there would be without friction, and from their opposites.
+    from the directions that there would be without friction, and from their opposites; where a
+    body slips at several points, from those of the slip of all together.
 
     Raises:
         NumericError: where different directions are possible.
@@ -155,9 +156,13 @@ def joint_onset(hybrid: HybridSystem, entry: ModeState) -> dict[int, float] | No
         felt += np.linalg.norm(rates(unit) - free, axis=1, keepdims=True)
     if np.min(np.hypot(*free.T)) <= NO_SLIP * np.max(np.abs(free)):
         return None
+    depend = _depend_on_one_another(hybrid, entry, places)
     first, found = free / np.hypot(*free.T)[:, None], list[Array]()
-    for signs in product((1.0, -1.0), repeat=len(rows)):
-        units = _settled(rates, first * np.array(signs)[:, None], felt)
+    for signs in product((1.0, -1.0), repeat=1 if depend else len(rows)):
+        if depend:
+            units = _settled_together(rates, free * signs[0], felt)
+        else:
+            units = _settled(rates, first * np.array(signs)[:, None], felt)
         if units is not None and all(np.max(np.abs(units - u)) > 1e-6 for u in found):
             found.append(units)
     if len(found) > 1:
@@ -173,7 +178,33 @@ def joint_onset(hybrid: HybridSystem, entry: ModeState) -> dict[int, float] | No
     return {i: float(np.arctan2(y, x)) for i, (x, y) in zip(places, found[0], strict=True)}
 
 
+def _depend_on_one_another(hybrid: HybridSystem, entry: ModeState, places: list[int]) -> bool:
+    """Whether slips determine one another, as those at two points of one body do."""
+    points = hybrid.touching.at(entry.shared, beyond(entry.phases))
+    _, allowed = hybrid.mode(entry.phases).allowed(entry.shared)
+    moved = np.vstack([points[i].jacobian[:2] for i in places]) @ allowed
+    return int(np.linalg.matrix_rank(moved, _DEPENDENT * np.max(np.abs(moved)))) < len(moved)
+
+
+_DEPENDENT = 1e-10  # of the largest: what moves slips less is rounding
 _ROUNDS = 500  # of the iteration; its changes shrink by a factor, or do not end
+_SETTLED = 1e-12  # of a direction: changes that rounding leaves
+
+
+def _settled_together(rates: Callable[[Array], Array], slips: Array, felt: Array) -> Array | None:
+    """The same for slips that determine one another: a motion of all, along its own rate."""
+    units, change = slips / np.hypot(*slips.T)[:, None], np.inf
+    for _ in range(_ROUNDS):
+        before, slips = units, np.max(felt) * slips / np.linalg.norm(slips) + rates(units)
+        sizes = np.hypot(*slips.T)
+        if not np.all(np.isfinite(sizes)) or np.min(sizes) == 0:
+            return None
+        units = slips / sizes[:, None]
+        change = float(np.max(np.abs(units - before)))
+        if change < 1e-15:
+            break
+    grows = np.sum(rates(units) * units, axis=1)
+    return units if change < _SETTLED and np.all(grows > -1e-9 * felt[:, 0]) else None
 
 
 def _settled(rates: Callable[[Array], Array], units: Array, felt: Array) -> Array | None:

@@ -1,7 +1,8 @@
 """Chooses the contact mode in which a motion continues, from the forces that each would need.
 
-Candidates are tried in order: rolling before sliding before flight, contact by contact. A mode is
-possible if no contact has to pull, and static friction stays within its limit μ_s N.
+Candidates are tried in order: those with more contacts closed first, and rolling before sliding,
+contact by contact. A mode is possible if no contact has to pull, and static friction stays within
+its limit μ_s N.
 """
 
 from __future__ import annotations
@@ -34,11 +35,15 @@ from polhode.simulate.contact._contact_kinematics import (
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, directions_of, entered
 from polhode.simulate.contact._onset_directions import NO_SLIP, begin_slips
+from polhode.simulate.contact._open_forces import null_space
+from polhode.simulate.contact._regular_speeds import on_regular_speeds
 from polhode.simulate.integrate._arrays import Array
+from polhode.simulate.integrate._number_types import DOUBLES
 
 # A mode ends where a force reaches its limit, so there the force of the next mode is at its own
 # limit too, up to the error of the time of the event: it may exceed the limit by this share.
 _TOLERANCE = 1e-11
+_MOVES = 1e-9  # of the largest velocity by unit speeds: what moves a contact less is rounding
 
 
 @dataclass(frozen=True)
@@ -72,7 +77,14 @@ def select_mode(hybrid: HybridSystem, shared: State, known: ContactStatus) -> Mo
         list(_phases(hybrid, contact, i, point, replace(known, beyond=beyond)))
         for i, (contact, point) in contacts
     ]
-    for phases in filter(hybrid.automaton.is_possible, product(*tried)):
+    # Contacts open where they would have to pull: modes in which more stay closed come first.
+    modes = sorted(product(*tried), key=lambda phases: sum(p.flies for p in phases))
+    for phases in filter(hybrid.automaton.is_possible, modes):
+        if not _can_slip(phases, points):
+            continue
+        there = on_regular_speeds(hybrid, phases, shared)
+        if there is not shared:
+            shared, points = there, hybrid.touching.at(there, beyond)
         entry = _attempt(hybrid, shared, phases, points, known)
         if isinstance(entry, ModeState):
             return entry
@@ -102,12 +114,45 @@ def _attempt(
         return ""
     entry = entered(hybrid, shared, phases, points, starting)
     if undetermined:
-        held = rests(hybrid.in_doubles, entry.rounded())
-        if held is None:
-            raise _open_forces(undetermined, shared.time)
-        return entry if held else f"{hybrid.mode(phases).mode.name} would need more friction"
+        failure = begin_slips(hybrid, entry) or _open_objection(
+            hybrid.in_doubles, entry.rounded(), undetermined
+        )
+        return failure or _would_close(hybrid, entry, points, known) or entry
     failure = begin_slips(hybrid, entry) or _objection(hybrid, entry)
     return failure or _would_close(hybrid, entry, points, known) or entry
+
+
+def _can_slip(phases: tuple[Phase, ...], points: list[ContactKinematics]) -> bool:
+    """Whether all contacts that would slide can: where two corners stick, a third cannot slip."""
+    sliding = [point for point, phase in zip(points, phases, strict=True) if phase.slides]
+    closed = [(i, phase) for i, phase in enumerate(phases) if not phase.flies]
+    if not sliding or len(closed) == 1:
+        return True
+    held = [points[i].jacobian if p.rolls else points[i].jacobian[2:] for i, p in closed]
+    rows = DOUBLES.array(np.vstack(held))
+    motions = null_space(rows)
+    least = _MOVES * np.max(np.abs(rows))
+    moved = (DOUBLES.array(point.jacobian[:2]) @ motions for point in sliding)
+    return all(np.max(np.abs(slips), initial=0.0) > least for slips in moved)
+
+
+def _open_objection(
+    hybrid: HybridSystem, entry: ModeState, undetermined: tuple[ContactLaw, ...]
+) -> str | None:
+    """Why contacts with forces that are open cannot hold; None if they can.
+
+    Raises:
+        NumericError: where that is open, too.
+    """
+    mode = hybrid.mode(entry.phases)
+    values = mode.balances(entry.state, entry.shared.time, directions_of(entry))
+    forces = mode.open_forces
+    if forces is not None and forces.are_decided(values):
+        return forces.objection(values, hybrid.static_coefficients)
+    held = rests(hybrid, entry)
+    if held is None:
+        raise _open_forces(undetermined, entry.shared.time)
+    return None if held else f"{mode.mode.name} would need more friction"
 
 
 def _phases(
@@ -197,7 +242,8 @@ def _open_forces(undetermined: tuple[ContactLaw, ...], time: Any) -> NumericErro
         f"{float(time):.9g} s, beside contacts with friction",
         expected="contacts whose normal and friction forces Newton's laws determine, or bodies at "
         "rest under loads that stay as they are",
-        advice="declare the contacts Rolling or Smooth, or take one of them away"
+        advice="name a law by which they share a load, System(..., sharing="
+        '"equal stiffness"), declare them Rolling or Smooth, or take one of them away'
         if rubs
         else "declare bodies that do not interact as systems of their own",
     )

@@ -221,6 +221,9 @@ class _Step:
         return bisected(size, before, float(_PARTS[after]))
 
 
+_DEPENDENT = 1e-13  # of the largest singular value: smaller ones are rounding
+
+
 def _step(
     rates: Rates, begin: float, length: float, start: Array, acceleration: float, angles: Indices
 ) -> _Step | None:
@@ -239,7 +242,10 @@ def _step(
         try:
             change = np.linalg.solve(slope, -residual.ravel()).reshape(stages.shape)
         except np.linalg.LinAlgError:
-            return None
+            # Slips of one rigid body depend on one another: where all are zero, so do the equations
+            # for their directions, which then stay as they are as far as possible.
+            found = np.linalg.lstsq(slope, -residual.ravel(), rcond=_DEPENDENT)[0]
+            change = np.asarray(found, dtype=float).reshape(stages.shape)
         if not np.all(np.isfinite(change)):
             return None
         stages = stages + change

@@ -30,6 +30,7 @@ from polhode.simulate.contact._impact import (
 )
 from polhode.simulate.contact._joint_impact import ImpactLaw, joint_impact
 from polhode.simulate.contact._mode_state import ModeState, beyond, directions_of
+from polhode.simulate.contact._open_forces import GivesWay
 from polhode.simulate.contact._select_mode import ContactStatus, select_mode
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
@@ -55,12 +56,14 @@ class ModeExit:
         shared: the shared state.
         gaps: heights of the contacts that are open, as integrated, m.
         edge_distances: distances to an edge, likewise, m.
+        still: contacts whose slip has ended.
     """
 
     guard: Guard | None
     shared: State
     gaps: dict[int, float]
     edge_distances: dict[int, float]
+    still: frozenset[int] = frozenset()
 
 
 class Transitions:
@@ -110,12 +113,13 @@ class Transitions:
         # Contacts that have begun to slip at this very instant have no slip speed yet, and would
         # count as sticking by their speeds alone.
         starting = frozenset(before.onset) if before.shared.time == shared.time else frozenset()
+        slipping = guard.places if isinstance(guard, GivesWay) else frozenset({i})
         lifted = separated | self._hybrid.closing_with(i) if i >= 0 else separated
         known = {
             "lifts off": ContactStatus(lifted, sticking - lifted, beyond=off_edge),
             "crosses the edge": ContactStatus(separated, sticking - {i}, beyond=off_edge ^ {i}),
-            "slips": ContactStatus(separated, sticking - {i}, starting | {i}, off_edge),
-            "sticks": ContactStatus(separated, sticking | {i}, beyond=off_edge),
+            "slips": ContactStatus(separated, sticking - slipping, starting | slipping, off_edge),
+            "sticks": ContactStatus(separated, sticking | leaving.still | {i}, beyond=off_edge),
         }
         entry = select_mode(self._hybrid, shared, known[guard.kind])
         turned = guard.kind == "sticks" and entry.phases[i].slides

@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from polhode.base import NumericError
 from polhode.simulate._absolute_values import shorter_span
 from polhode.simulate._dynamics import CLOCK
@@ -17,6 +19,7 @@ from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._mode_expressions import vanishing_expression
 from polhode.simulate.contact._mode_pieces import REVERSED, VANISHED, ModePieces, may_be_overshot
 from polhode.simulate.contact._mode_state import ModeState
+from polhode.simulate.contact._open_forces import GivesWay
 from polhode.simulate.contact._slip_onset import polar_shape
 from polhode.simulate.contact._speed_changes import SpeedChange
 from polhode.simulate.integrate._flint import SlipSeries
@@ -135,6 +138,13 @@ class PrecisePieces(ModePieces):
             point, guard = ended_slip[0], self._monitor.sticking_guard(ended_slip[1])
         if fall is not None and fall[0] < point.step + float(point.share):
             guard = fall[1]
+            if isinstance(guard, GivesWay):
+                (time,) = seen.times(np.array([fall[0]]))
+                raise NumericError(
+                    f"contacts whose forces are open give way at t = {float(time):.9g} s",
+                    expected="double precision, in which that instant is found",
+                    advice="leave out precision for this motion",
+                )
             positive = vanishing_expression(guard, self._monitor.near_flat)
             point = refined_crossing(self._mode.dynamics, positive, piece, fall[0])
         if guard is None and piece.solution.stop is Stop.STUCK:
