@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import product
 from typing import Any
 
 import polhode as ph
@@ -17,12 +18,14 @@ def on_corners(
     corners: tuple[tuple[int, int], ...] = ((1, 1), (1, -1), (-1, 1), (-1, -1)),
     sharing: str = "equal stiffness",
     mu_static: Any = None,
+    faces: tuple[int, ...] = (-1,),
 ) -> ph.System:
-    """On some of the corners of its lower face.
+    """On some of its corners.
 
     Args:
         plane: in the laboratory.
         corners: on which side of the centre each is.
+        faces: of the lower face, -1, or the upper one, 1.
     """
     lab = ph.Frame("N")
     on = plane(lab)
@@ -34,13 +37,13 @@ def on_corners(
         ph.Coulomb(
             box,
             on=on,
-            at=axes.vector(i * A / 2, j * B / 2, -C / 2),
+            at=axes.vector(i * A / 2, j * B / 2, k * C / 2),
             mu=MU,
             mu_static=mu_static,
-            name=f"corner {k}",
-            force="PQRS"[k],
+            name=f"corner {name}",
+            force=name,
         )
-        for k, (i, j) in enumerate(corners)
+        for name, (k, (i, j)) in zip("PQRSTUVW", product(faces, corners), strict=False)
     ]
     gravity = ph.Gravity(G, up=lab["z"])
     return ph.System(*contacts, gravity, impacts="Moreau", sharing=sharing)

@@ -19,6 +19,7 @@ from polhode.simulate.integrate._arrays import Array
 
 _ROUNDS = 20_000  # of relaxation, each of which shrinks the error by a factor
 _SETTLED = 1e-13  # of the largest impulse: changes of a round at which it ends
+_FOUND = 1e-10  # the same: what further rounds would still change
 _POLISHED = 20  # rounds in which directions of slip are made exact
 _GAINED = 1e-10  # of the energy before: more energy than this after an impact is no rounding
 
@@ -55,19 +56,19 @@ def joint_impact(
     bounces = np.ravel([(law.restitution[1],) * 2 + (law.restitution[0],) for law in laws])
     right = (1 + bounces) * before
     felt = _felt(inverse_mass)
-    impulses = _relaxed(inverse_mass, right, laws, felt)
-    if impulses is None:
+    relaxed = _relaxed(inverse_mass, right, laws, felt)
+    polished = _polished(inverse_mass, right, laws, relaxed)
+
+    def error(of: Array) -> float:
+        return float(np.max(np.abs(_round(inverse_mass, right, laws, felt, of) - of)))
+
+    impulses = min(polished, relaxed, key=error)
+    if not error(impulses) <= _FOUND * np.max(np.abs(impulses), initial=0.0):
         raise NumericError(
             f"{where}, whose impulses are not found",
             expected="contacts whose impulses determine one another",
             advice="end the motion before that time",
         )
-    polished = _polished(inverse_mass, right, laws, impulses)
-
-    def error(of: Array) -> float:
-        return float(np.max(np.abs(_round(inverse_mass, right, laws, felt, of) - of)))
-
-    impulses = min(polished, impulses, key=error)
     after = before + inverse_mass @ impulses
     gained = impulses @ (before + after) / 2
     if gained > _GAINED * np.abs(impulses) @ np.abs(before):
@@ -84,15 +85,15 @@ def _relaxed(
     right: Array,
     laws: Sequence[ImpactLaw],
     felt: Sequence[tuple[float, float]],
-) -> Array | None:
-    """The impulses by relaxation; None where they do not settle."""
+) -> Array:
+    """The impulses by relaxation, as far as they settle."""
     impulses = np.zeros_like(right)
     for _ in range(_ROUNDS):
         after = _round(inverse_mass, right, laws, felt, impulses)
         change, impulses = np.max(np.abs(after - impulses)), after
         if change <= _SETTLED * np.max(np.abs(impulses), initial=0.0):
-            return impulses
-    return None
+            break
+    return impulses
 
 
 def _felt(inverse_mass: Array) -> list[tuple[float, float]]:
