@@ -12,9 +12,11 @@ import numpy as np
 import pytest
 
 from polhode.base import NumericError, cache
+from polhode.simulate.integrate._kernel import up_to_where_stopped
 from polhode.simulate.kernel import _instance
-from polhode.simulate.kernel._host import Kernel
+from polhode.simulate.kernel._host import Kernel, Steps
 from polhode.simulate.kernel._layout import Layout
+from polhode.simulate.kernel._steps import Status
 from simulate.kernel.tapes import layout_of
 from simulate.kernel.test_steps import oscillator
 
@@ -115,3 +117,16 @@ def test_more_memory_than_there_is_is_an_error():
     huge = Layout(replace(layout.tape, rows=2**28), layout.order, layout.steps)
     with pytest.raises(NumericError, match="MiB of memory to integrate"):
         Kernel(huge).start(np.empty(0), 0.0, np.zeros(2))
+
+
+def test_a_call_that_is_broken_at_once_has_no_step_to_stop_at():
+    broken = Steps(
+        np.empty((0, 2)),
+        np.empty(0),
+        np.empty((0, 1, 1)),
+        (0.5, 0.0),
+        np.ones(1),
+        Status.BROKEN,
+        np.empty(0),
+    )
+    assert up_to_where_stopped(broken, lambda time, state: False) is broken

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from itertools import product
+from itertools import combinations, product
 from typing import Any
 
 import numpy as np
@@ -77,9 +77,7 @@ def select_mode(hybrid: HybridSystem, shared: State, known: ContactStatus) -> Mo
         list(_phases(hybrid, contact, i, point, replace(known, beyond=beyond)))
         for i, (contact, point) in contacts
     ]
-    # Contacts open where they would have to pull: modes in which more stay closed come first.
-    modes = sorted(product(*tried), key=lambda phases: sum(p.flies for p in phases))
-    for phases in filter(hybrid.automaton.is_possible, modes):
+    for phases in filter(hybrid.automaton.is_possible, _in_order(tried)):
         if not _can_slip(phases, points):
             continue
         there = on_regular_speeds(hybrid, phases, shared)
@@ -94,6 +92,21 @@ def select_mode(hybrid: HybridSystem, shared: State, known: ContactStatus) -> Mo
         expected="friction and normal forces that some mode can supply",
         advice="lower the friction coefficient, or end the motion before that time",
     )
+
+
+def _in_order(tried: list[list[Phase]]) -> Iterator[tuple[Phase, ...]]:
+    """All combinations of phases: those with more contacts closed first.
+
+    Contacts open where they would have to pull, so with more of them open a mode is looked at only
+    where none with fewer is possible.
+    """
+    closed = [[phase for phase in phases if not phase.flies] for phases in tried]
+    able = [i for i, phases in enumerate(closed) if phases]
+    for count in range(len(able) + 1):
+        for opened in combinations(reversed(able), count):
+            yield from product(
+                *([FLIGHT] if i in opened or not own else own for i, own in enumerate(closed))
+            )
 
 
 def _attempt(

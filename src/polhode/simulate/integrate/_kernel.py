@@ -73,11 +73,11 @@ class _KernelStepper:
 
     def _followed(self, steps: Steps, end: float, longest: float, watch: StepCallback) -> Leg:
         """The leg that begins with a step, until it is stopped, ends or is broken."""
-        calls = [_watched(steps, watch)]
+        calls = [up_to_where_stopped(steps, watch)]
         most = 1
         while calls[-1].status is Status.GOING:
             most = min(2 * most, _MOST)
-            calls.append(_watched(self.kernel.advance(end, longest, most), watch))
+            calls.append(up_to_where_stopped(self.kernel.advance(end, longest, most), watch))
         last = calls[-1]
         ends = np.concatenate([*(call.begins for call in calls), [last.end]])
         return TaylorLeg(
@@ -89,8 +89,10 @@ class _KernelStepper:
         )
 
 
-def _watched(steps: Steps, watch: StepCallback) -> Steps:
+def up_to_where_stopped(steps: Steps, watch: StepCallback) -> Steps:
     """The steps of a call up to the one after which the callback stops them."""
+    if not len(steps.lengths):  # broken at once, where the call before it ended
+        return steps
     times = [*steps.begins[1:, 0].tolist(), steps.end[0]]
     states = [*steps.shares[1:, :, 0].tolist(), steps.state.tolist()]
     for taken, (time, state) in enumerate(zip(times, states, strict=True), 1):
