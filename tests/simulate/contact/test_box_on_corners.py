@@ -172,3 +172,21 @@ def test_without_a_law_sliding_is_refused_with_advice() -> None:
 def test_an_unknown_law_is_refused() -> None:
     with pytest.raises(ph.DeclarationError, match="sharing='springs'"):
         on_corners(sharing="springs")
+
+
+# -- on one corner ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("theta", "phi", "spins"),
+    [(0.33, -0.74, (-14.0, -13.0, 12.0)), (0.54, -0.31, (1.0, 19.0, 17.0))],
+)
+@pytest.mark.parametrize("mu", [0.4, 0.8])
+def test_a_corner_that_turning_lifts_opens(theta: float, phi: float, spins, mu: float) -> None:
+    """It would have to pull in every direction in which slip could begin: there is no choice."""
+    corner = automaton(on_corners(corners=((1, 1),), sharing=""))
+    start = {"theta": theta, "phi": phi}
+    start |= zip(("psi_dot", "theta_dot", "phi_dot"), spins, strict=True)
+    run = ph.simulate(corner, NUMBERS | {MU: mu}, start, 0.002)
+    assert run.segments[0].mode == "flight"
+    assert kinds(run) == ["start", "end"]

@@ -17,6 +17,7 @@ from polhode.simulate.integrate._crossing import bracketed_zeros
 
 #: Slip that counts as none, relative to the velocities that it is the difference of.
 NO_SLIP = 1e-12
+_PULLS = 1e-9  # of the largest force: less is rounding
 _ANGLES = 72  # directions of slip, 5° apart, between which roots are bracketed
 
 
@@ -91,18 +92,35 @@ def _rough_angle(hybrid: HybridSystem, entry: ModeState, i: int) -> float | None
     found = bracketed_zeros(across, grid, values) if size else []
     # Slip may begin gently, with no acceleration at first: then its growth is zero to rounding.
     growing = [angle for angle in found if along(angle) > -1e-9 * size]
-    if len(growing) == 1:
-        return growing[0]
-    if not growing and len(hybrid.automaton.contacts) > 1:
+    pressed = [
+        angle
+        for angle in growing
+        if _presses(hybrid, replace(entry, onset={**entry.onset, i: angle}), [i])
+    ]
+    if len(pressed) == 1:
+        return pressed[0]
+    # Where it would have to pull in every direction, it opens.
+    if not pressed and (growing or len(hybrid.automaton.contacts) > 1):
         return None
     name = hybrid.automaton.contacts[i].name
-    which = "several directions" if growing else "no direction"
+    which = "several directions" if pressed else "no direction"
     raise NumericError(
         f"at t = {entry.shared.time:.9g} s slip can begin at {name} in {which}",
         expected="one direction in which slip grows against the friction that opposes it",
         advice="end the motion before that time, or lower the friction coefficient: from here on a "
         "rigid body with this friction has no unique motion",
     )
+
+
+def _presses(hybrid: HybridSystem, entry: ModeState, places: list[int]) -> bool:
+    """Whether no contact has to pull, of those that begin to slip in the directions of an entry.
+
+    Where sliding jams, a normal force below zero says nothing: it may grow beyond all bounds.
+    """
+    mode, given = hybrid.mode(entry.phases), (entry.state, entry.shared.time, directions_of(entry))
+    forces = mode.contact_forces(*given)
+    pulls = np.min(forces[places, 2]) < -_PULLS * np.max(np.abs(forces))
+    return not pulls or mode.jamming(*given) <= 0
 
 
 def rates_along(mode: CompiledMode, entry: ModeState, i: int, seen: int, angles: Array) -> Array:
@@ -163,7 +181,9 @@ def joint_onset(hybrid: HybridSystem, entry: ModeState) -> dict[int, float] | No
             units = _settled_together(rates, free * signs[0], felt)
         else:
             units = _settled(rates, first * np.array(signs)[:, None], felt)
-        if units is not None and all(np.max(np.abs(units - u)) > 1e-6 for u in found):
+        if units is None or any(np.max(np.abs(units - u)) <= 1e-6 for u in found):
+            continue
+        if _presses(hybrid, replace(entry, onset=_angles(places, units)), places):
             found.append(units)
     if len(found) > 1:
         names = ", ".join(hybrid.automaton.contacts[k].name for k in places)
@@ -173,9 +193,12 @@ def joint_onset(hybrid: HybridSystem, entry: ModeState) -> dict[int, float] | No
             expected="friction with which the directions of slip are determined",
             advice="end the motion before that time, or change one coefficient of friction",
         )
-    if not found:
-        return None
-    return {i: float(np.arctan2(y, x)) for i, (x, y) in zip(places, found[0], strict=True)}
+    return _angles(places, found[0]) if found else None
+
+
+def _angles(places: list[int], units: Array) -> dict[int, float]:
+    """Directions as angles (rad), by contact."""
+    return {i: float(np.arctan2(y, x)) for i, (x, y) in zip(places, units, strict=True)}
 
 
 def _depend_on_one_another(hybrid: HybridSystem, entry: ModeState, places: list[int]) -> bool:
