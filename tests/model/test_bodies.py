@@ -140,6 +140,16 @@ def test_a_box_has_three_positive_sides(sides) -> None:
         ph.box("box", mass=1, sides=sides, axes=LAB)
 
 
+def test_a_contact_names_the_corner_of_a_box() -> None:
+    box = ph.box("box", mass=m, sides=(a, b, c), axes=LAB)
+    with pytest.raises(ph.DeclarationError, match=r"corner that touches.*at=axes\.vector"):
+        ph.Smooth(box, on=ph.Plane(LAB))
+    assert not box.surface.is_symmetric(LAB, 2)
+    square = ph.box("square", mass=m, sides=(a, a, c), axes=LAB)
+    assert square.surface.is_symmetric(LAB, 2)
+    assert not square.surface.is_symmetric(LAB, 0)
+
+
 def test_an_upright_cone_stands_on_the_edge_of_its_base_until_its_side_touches() -> None:
     """Released leaning, it falls on its edge: the apex comes down to the table."""
     theta, axes = ph.coordinate("theta"), LAB.rotated(ph.coordinate("theta"), "y", "1 2 3")

@@ -94,6 +94,15 @@ SYSTEMS = {
         ),
         name="on the Earth",
     ),
+    "sharing": ph.System(
+        ph.Coulomb(
+            ph.box("box", mass=m, sides=(a, 2 * a, 3 * a), axes=LAB),
+            on=FLOOR,
+            at=LAB["z"] * a,
+            mu=mu,
+        ),
+        sharing="equal stiffness",
+    ),
     "impacts": ph.System(ph.Rolling(ball(), on=FLOOR, name="floor"), impacts="Moreau"),
     "resistance": ph.System(
         roll := ph.Rolling(ball(), on=FLOOR),

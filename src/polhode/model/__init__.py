@@ -103,6 +103,7 @@ from polhode.model._support import MISFIT as MISFIT
 from polhode.model._support import NO_FOOT as NO_FOOT
 from polhode.model._support import STEEP as STEEP
 from polhode.model._support import Support as Support
+from polhode.model._surface import Block as Block
 from polhode.model._surface import Ellipsoidal as Ellipsoidal
 from polhode.model._surface import Face as Face
 from polhode.model._surface import Profile as Profile

@@ -102,6 +102,12 @@ class Contact(ContactLaw):
                 advice="give it rim= or surface=, make it with disk, hoop or sphere, or say which "
                 "point touches: at=axes['x'] * l",
             )
+        if not self.body.surface.touches:
+            raise DeclarationError(
+                f"contact {self.name!r} of body {self.body.name!r}, which does not say where",
+                expected="the corner that touches",
+                advice="say which: at=axes.vector(a/2, b/2, -c/2), with a contact for each corner",
+            )
         return self.body.surface
 
     @property

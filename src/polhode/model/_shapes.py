@@ -10,7 +10,7 @@ from polhode.model._body import Body
 from polhode.model._declared import positive, three
 from polhode.model._frame import Frame
 from polhode.model._spin import About, Free
-from polhode.model._surface import BaseEdge, Ellipsoidal, LowerEdge, Rim, Round
+from polhode.model._surface import BaseEdge, Block, Ellipsoidal, LowerEdge, Rim, Round
 
 
 def disk(
@@ -153,9 +153,11 @@ def box(
     It touches nothing by itself: contacts name its corners, `at=axes.vector(a/2, b/2, -c/2)`.
     """
     given = three(sides, f"sides of body {name!r}")
-    a, b, c = (positive(side, f"side of {name!r}") ** 2 for side in given)
-    moments = [Expr.of(mass) * squares / 12 for squares in (b + c, c + a, a + b)]
-    return Body(name, mass=mass, axes=axes, **{"inertia": moments, **more})
+    a, b, c = (Expr.of(positive(side, f"side of {name!r}")) for side in given)
+    squares = (b**2 + c**2, c**2 + a**2, a**2 + b**2)
+    moments = [Expr.of(mass) * square / 12 for square in squares]
+    own = {"inertia": moments, "surface": Block((a, b, c))}
+    return Body(name, mass=mass, axes=axes, **{**own, **more})
 
 
 def point_mass(name: str, *, mass: ExprLike, axes: Frame, **more: Any) -> Body:

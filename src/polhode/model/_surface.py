@@ -54,6 +54,11 @@ class Surface(Declared, ABC):
         """
         return False
 
+    @property
+    def touches(self) -> bool:
+        """Whether it says by itself which point touches a support; otherwise contacts name it."""
+        return True
+
     @abstractmethod
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
         """From the centre of mass to the point that touches a plane with this unit normal, m."""
@@ -330,6 +335,38 @@ class Ellipsoidal(Surface):
         normal = upright.components
         stretched = [h * h * n for h, n in zip(self.half_axes, normal, strict=True)]
         return stretched, sum((s * n for s, n in zip(stretched, normal, strict=True)), ZERO)
+
+
+@dataclass(frozen=True)
+class Block(Surface):
+    """A box about the centre of mass, with sides along the axes: contacts name its corners."""
+
+    sides: tuple[Expr, Expr, Expr]
+
+    def __post_init__(self) -> None:
+        what = "side of a box"
+        sides = three(self.sides, "sides of a box")
+        object.__setattr__(self, "sides", tuple(constant(positive(s, what), what) for s in sides))
+
+    @property
+    def sizes(self) -> Iterator[Size]:
+        for side in self.sides:
+            yield Size("side of a box", side)
+
+    @property
+    def touches(self) -> bool:
+        return False
+
+    def lowest(self, axes: Frame, normal: Vector) -> Vector:
+        raise DeclarationError(
+            "the lowest point of a box, which changes from corner to corner",
+            expected="contacts that name the corners",
+            advice="give each contact its corner: at=axes.vector(a/2, b/2, -c/2)",
+        )
+
+    def is_symmetric(self, axes: Frame, axis: int) -> bool:
+        first, second = (side for i, side in enumerate(self.sides) if i != axis)
+        return first == second
 
 
 @dataclass(frozen=True)

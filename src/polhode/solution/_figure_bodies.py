@@ -176,7 +176,7 @@ def drawn_body(view: FigureView, body: Body) -> Iterator[Shape]:
                 yield from _unsurfaced(view, body, centre)
         case _:
             yield from _unsurfaced(view, body, centre)
-    if body.surface is not None:
+    if body.surface is not None and body.surface.touches:
         yield from _spokes(view, body, centre)
     if body.inertia.is_zero and body.mass:
         yield Shape((centre,), "dot", is_closed=True, radius=5.0)

@@ -9,7 +9,7 @@ from functools import singledispatch
 import numpy as np
 
 from polhode.algebra import Expr
-from polhode.model import Body, Ellipsoidal, Face, Rim, Round, Surface
+from polhode.model import Block, Body, Ellipsoidal, Face, Rim, Round, Surface
 from polhode.view._quantities import Array
 from polhode.view._scene import BodyShape, Triple
 
@@ -27,7 +27,7 @@ class ShapeSource:
     """What a shape follows from: a live page computes it anew for other numbers.
 
     Attributes:
-        rule: round, ellipsoidal, face, rim, outline or inertia.
+        rule: round, ellipsoidal, box, face, rim, outline or inertia.
         numbers: expressions of parameters that the rule needs.
         position: of the axis among those of the body, for rules that have one.
     """
@@ -67,6 +67,11 @@ def _(surface: Ellipsoidal, body: Body) -> ShapeSource:
 
 
 @_source_of.register
+def _(surface: Block, body: Body) -> ShapeSource:
+    return ShapeSource("box", surface.sides, 0)
+
+
+@_source_of.register
 def _(surface: Face, body: Body) -> ShapeSource:
     return ShapeSource("face", (surface.height,))
 
@@ -95,6 +100,10 @@ def _round(values: Sequence[float], position: int) -> BodyShape:
 def _ellipsoidal(values: Sequence[float], position: int) -> BodyShape:
     first, second, third, *centre = values
     return BodyShape("ellipsoid", (first, second, third), centre=_triple(centre))
+
+
+def _box(values: Sequence[float], position: int) -> BodyShape:
+    return BodyShape("box", _triple(values), *_directions(position))
 
 
 def _face(values: Sequence[float], position: int) -> BodyShape:
@@ -159,6 +168,7 @@ _RULES: Mapping[str, Callable[[Sequence[float], int], BodyShape]] = {
     "outline": _outline,
     "round": _round,
     "ellipsoidal": _ellipsoidal,
+    "box": _box,
     "face": _face,
     "rim": _rim,
     "inertia": _equivalent,

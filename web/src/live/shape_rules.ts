@@ -19,6 +19,7 @@ export function shapeOf(rule: string, numbers: number[], position: number): Shap
     return { ...shape("ball", [radius], axis, across), centre: axis.map((part) => offset * part) as Triple };
   }
   if (rule === "ellipsoidal") return { ...shape("ellipsoid", numbers.slice(0, 3)), centre: numbers.slice(3) as Triple };
+  if (rule === "box") return shape("box", numbers, axis, across);
   if (rule === "face") return shape("box", [3 * numbers[0], 2.4 * numbers[0], 2 * numbers[0]]);
   if (rule === "rim") {
     const [radius, offset, mass, about] = numbers;
