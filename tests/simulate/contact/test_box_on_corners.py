@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -159,6 +160,22 @@ def test_over_two_corners_it_tips_as_over_an_edge_in_the_plane() -> None:
     assert gained == pytest.approx(m * g * (height[0] - height), abs=1e-13)
     with pytest.raises(ph.NumericError, match="P_y is not determined"):  # along the edge
         run["P_y"]
+
+
+def test_dropped_it_clatters_and_comes_to_rest_on_all_corners() -> None:
+    """Corner after corner, ever faster; energy never grows, and no corner goes below the table."""
+    start = {"z": 0.3, "theta": 0.4, "phi": 0.3, "psi_dot": 3.0, "v_x": 0.3}
+    run = ph.simulate(level(), NUMBERS | {MU: 0.3}, start, 1.0)
+    assert len(run.events) > 10
+    assert run.segments[-1].mode == "rolling"
+    assert run.final["z"] == pytest.approx(0.05, abs=1e-13)
+    assert all(run.final[name] == 0 for name in ("v_x", "v_y", "psi_dot", "theta_dot", "phi_dot"))
+    assert np.max(np.diff(run["energy"])) < 1e-14
+    # of a corner below the centre: the height of the centre less the corner's depth
+    theta, phi = run["theta"], run["phi"]
+    for i, j in product((0.1, -0.1), (0.15, -0.15)):
+        up = -np.sin(theta) * i + np.cos(theta) * (np.sin(phi) * j - np.cos(phi) * 0.05)
+        assert np.min(run["z"] + up) > -1e-13
 
 
 # -- what is refused -------------------------------------------------------------------------------

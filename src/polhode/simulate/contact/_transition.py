@@ -127,10 +127,13 @@ class Transitions:
 
     def _lands_too(self, point: ContactKinematics, time: Any) -> bool:
         """Whether an open contact lands at this very instant, to within rounding."""
-        numbers, closing = self._hybrid.numbers, -point.velocity[2]
-        near = numbers.finer(_TOGETHER) * point.extent
-        near = near + closing * _AT_ONCE * numbers.spacing(time)
-        return bool(closing > self._slow(point) and point.gap <= near)
+        return bool(-point.velocity[2] > self._slow(point) and self._is_near(point, time))
+
+    def _is_near(self, point: ContactKinematics, time: Any) -> bool:
+        """Whether the height of an open contact is zero, to within rounding."""
+        numbers = self._hybrid.numbers
+        falls = max(-point.velocity[2], 0) * _AT_ONCE * numbers.spacing(time)
+        return bool(point.gap <= numbers.finer(_TOGETHER) * point.extent + falls)
 
     def _land(self, before: ModeState, shared: State, i: int) -> tuple[str, ModeState]:
         """An impact, if it approaches; then contact, or flight again if it rebounds."""
@@ -234,12 +237,28 @@ class Transitions:
             if k not in opened and law.friction and np.hypot(*v[:2]) <= STICKS * points[i].scale
         }
         flying = {k for k, phase in enumerate(before.phases) if phase.flies}
+        closed = [*taking, *self._left_touching(left, flying - set(taking), still)]
         separated = frozenset.union(
-            frozenset(flying - {j for k in taking for j in hybrid.closing_with(k)}),
+            frozenset(flying - {j for k in closed for j in hybrid.closing_with(k)}),
             *(hybrid.closing_with(k) for k in opened),
         )
         known = ContactStatus(separated, frozenset(stuck), beyond=beyond(before.phases))
         return "bounces" if i in opened else "touches down", select_mode(hybrid, left, known)
+
+    def _left_touching(self, shared: State, open_: set[int], still: float) -> list[int]:
+        """The open contacts that an impact leaves without a distance and without a normal speed.
+
+        Such is the last corner of a box that clatters until it lies flat.
+        """
+        points = self._hybrid.touching.at(shared, frozenset())
+        contacts = self._hybrid.automaton.contacts
+        return [
+            k
+            for k in sorted(open_)
+            if not contacts[k].is_beside
+            and self._is_near(points[k], shared.time)
+            and abs(points[k].velocity[2]) <= max(still, self._slow(points[k]))
+        ]
 
     def _law(self, contact: ContactLaw) -> ImpactLaw:
         """What a contact does in an impact at several."""
