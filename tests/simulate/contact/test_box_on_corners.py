@@ -162,6 +162,19 @@ def test_over_two_corners_it_tips_as_over_an_edge_in_the_plane() -> None:
         run["P_y"]
 
 
+def test_edges_that_give_way_do_so_in_ensembles_too() -> None:
+    """The corners slip together where friction cannot hold them: an event without a guard."""
+    edge = automaton(on_corners(corners=((1, 1), (1, -1)), sharing=""))
+    leans, numbers = np.array([0.65, 0.7, 0.75]), NUMBERS | {MU: 0.35}
+    many = ph.ensemble(edge, numbers, {"theta": leans}, 0.15, outputs=["x", "theta"])
+    for k, lean in enumerate(leans):
+        single = ph.simulate(edge, numbers, {"theta": lean}, 0.15)
+        assert "slips" in kinds(single)
+        assert single.drift.energy < 1e-12
+        for name in ("x", "theta"):
+            assert many.values[name][k] == pytest.approx(single.final[name], abs=1e-12)
+
+
 def test_dropped_it_clatters_and_comes_to_rest_on_all_corners() -> None:
     """Corner after corner, ever faster; energy never grows, and no corner goes below the table."""
     start = {"z": 0.3, "theta": 0.4, "phi": 0.3, "psi_dot": 3.0, "v_x": 0.3}

@@ -87,12 +87,14 @@ class SingleTrajectoryStepper:
     def can_be_batched(self, entry: ModeState) -> bool:
         """Whether a mode can be integrated for many motions together.
 
-        Not with open contacts, which land with impacts, nor with absolute values.
+        Not with open contacts, which land with impacts, nor with absolute values, nor with forces
+        that are open: guards do not say where these give way.
         """
         mode = self._hybrid.mode(entry.phases)
         large = mode.can_jam and len(mode.mode.equations.mass.rows) > _LARGE
         smooth = not mode.dynamics.undecided
-        return smooth and not large and not any(phase.flies for phase in entry.phases)
+        decided = mode.open_forces is None
+        return decided and smooth and not large and not any(p.flies for p in entry.phases)
 
     def set_constants(self, constants: Mapping[Symbol, float]) -> None:
         """Take the numbers of a motion."""
