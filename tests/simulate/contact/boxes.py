@@ -13,6 +13,17 @@ MU, MU_S = ph.symbols("mu mu_s")
 NUMBERS: dict[Any, float] = {M: 1.3, A: 0.2, B: 0.3, C: 0.1, G: 9.81}
 
 
+def over_an_edge() -> ph.System:
+    """A box that can only turn about the direction of one edge, and touches with its middle."""
+    lab = ph.Frame("N")
+    axes = lab.rotated(ph.coordinate("theta"), "y")
+    box = ph.box("box", mass=M, sides=(A, B, C), axes=axes)
+    edge = ph.Coulomb(
+        box, on=ph.Plane(lab), at=axes.vector(A / 2, 0, -C / 2), mu=MU, name="edge", force="P"
+    )
+    return ph.System(edge, ph.Hinge(box, axis="y"), ph.Gravity(G))
+
+
 def on_corners(
     plane: Callable[[ph.Frame], Any] = ph.Plane,
     corners: tuple[tuple[int, int], ...] = ((1, 1), (1, -1), (-1, 1), (-1, -1)),

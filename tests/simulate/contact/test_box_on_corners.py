@@ -15,7 +15,7 @@ import polhode as ph
 from oracles.blocks import Shaken
 from oracles.sliding_boxes import SlidingBox
 from polhode.derive import Automaton, automaton
-from simulate.contact.boxes import MU, MU_S, NUMBERS, on_corners
+from simulate.contact.boxes import MU, MU_S, NUMBERS, on_corners, over_an_edge
 
 SLOPE, R, W = ph.symbols("alpha R w")
 (X,) = ph.functions("X")
@@ -160,6 +160,20 @@ def test_over_two_corners_it_tips_as_over_an_edge_in_the_plane() -> None:
     assert gained == pytest.approx(m * g * (height[0] - height), abs=1e-13)
     with pytest.raises(ph.NumericError, match="P_y is not determined"):  # along the edge
         run["P_y"]
+
+
+@pytest.mark.parametrize("lean", [0.65, 0.75])
+def test_the_corners_of_an_edge_give_way_as_its_middle_would(lean: float) -> None:
+    """Against the same motion with one contact, where a guard says when it slips."""
+    numbers = NUMBERS | {MU: 0.35}
+    plane = ph.simulate(over_an_edge(), numbers, {"theta": lean}, 0.15)
+    space = ph.simulate(
+        on_corners(corners=((1, 1), (1, -1)), sharing=""), numbers, {"theta": lean}, 0.15
+    )
+    assert kinds(space) == kinds(plane)
+    assert space.events[1].time == pytest.approx(plane.events[1].time, abs=5e-12)
+    for name in ("x", "theta"):
+        assert space.final[name] == pytest.approx(plane.final[name], abs=1e-11)
 
 
 def test_edges_that_give_way_do_so_in_ensembles_too() -> None:
