@@ -14,6 +14,7 @@ const NO_SLIP = 1e-12; // slip that counts as none, relative to the velocities t
 const NO_NORMAL_SPEED = 1e-14; // likewise of the normal velocity
 const TOLERANCE = 1e-11; // by which a force may exceed its limit where the mode before ended at its own
 const ANGLES = 72; // directions of slip, 5° apart, between which roots are bracketed
+const PULLS = 1e-9; // a normal force further below zero, of the largest force, pulls
 const TURNED = 0.0123; // rad: roots in symmetric directions fall between the points of the grid
 export const BARELY = 1e-150; // m/s, for a slip with a direction but no speed
 const EDGE = 16; // units in the last place of a distance from an edge that are rounding
@@ -246,13 +247,13 @@ export class Modes {
       const mode = this.find(phase, beyond);
       if (mode < 0) continue;
       const entry = this.enter(shared, mode, point, still, gap);
-      if (this.isPossible(entry)) return entry;
+      if (entry && this.isPossible(entry)) return entry;
     }
     throw new NoModeError("No contact mode is possible: friction or normal forces have no solution there.");
   }
 
-  /** Enter a mode: its constraints project the speeds. */
-  private enter(shared: Shared, mode: number, point: Kinematics, still: boolean, gap?: number): Entry {
+  /** Enter a mode: its constraints project the speeds. Undefined where slip would begin in directions that pull alone. */
+  private enter(shared: Shared, mode: number, point: Kinematics, still: boolean, gap?: number): Entry | undefined {
     const data = this.data(mode);
     const { time } = shared;
     const flight = this.data(this.flight(false));
@@ -275,6 +276,7 @@ export class Modes {
     if (data.slips.length) {
       if (still) {
         const onset = this.onset(mode, state, time);
+        if (onset === undefined) return undefined;
         this.slipAt(mode, state, BARELY, onset);
         return { mode, time, state, onset };
       } else [state[data.slips[0]], state[data.slips[1]]] = point.velocity;
@@ -299,8 +301,17 @@ export class Modes {
     return this.joined(mode, "slip rates", trial, time);
   }
 
-  /** The direction in which slip begins: ṡ(ŝ) × ŝ = 0 and ṡ(ŝ) · ŝ ≥ 0. */
-  private onset(mode: number, state: Vector, time: number): number {
+  /** Whether the contact need not pull where slip begins in a direction; where sliding jams, N < 0 says nothing. */
+  private presses(mode: number, state: Vector, time: number, angle: number): boolean {
+    const trial = [...state];
+    this.slipAt(mode, trial, BARELY, angle);
+    const force = this.joined(mode, "forces", trial, time);
+    const pulls = force[2] < -PULLS * Math.max(...force.map(Math.abs));
+    return !pulls || this.freedom(mode, trial, time) <= 0;
+  }
+
+  /** The direction in which slip begins: ṡ(ŝ) × ŝ = 0 and ṡ(ŝ) · ŝ ≥ 0; undefined where the contact opens. */
+  private onset(mode: number, state: Vector, time: number): number | undefined {
     const rates = (angle: number): Vector => this.slipRates(mode, state, time, angle);
     const across = (angle: number): number => {
       const [x, y] = rates(angle);
@@ -312,8 +323,10 @@ export class Modes {
     };
     const size = Math.max(...Array.from({ length: ANGLES }, (_, i) => Math.hypot(...rates((2 * Math.PI * i) / ANGLES))));
     const growing = zerosAround(across, ANGLES, TURNED - Math.PI).filter((angle) => along(angle) > -1e-9 * size);
-    if (growing.length !== 1) throw new NoModeError(`Slip can begin there in ${growing.length ? "several directions" : "no direction"}: a rigid body with this friction has no unique motion.`);
-    return growing[0];
+    const pressed = growing.filter((angle) => this.presses(mode, state, time, angle));
+    if (growing.length && !pressed.length) return undefined; // it would have to pull in every direction
+    if (pressed.length !== 1) throw new NoModeError(`Slip can begin there in ${pressed.length ? "several directions" : "no direction"}: a rigid body with this friction has no unique motion.`);
+    return pressed[0];
   }
 
   /** The largest rate of a slip that its friction alone brings about, and the largest of all, m/s². */
