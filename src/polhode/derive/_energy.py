@@ -68,10 +68,11 @@ def supplied_power(
         undetermined: names of the reactions that are open.
     """
     loads = sum((_supplied_by(motion, load, values) for load in motion.system.loads), ZERO)
-    working = [column for column in columns if _power_of(motion, column.wrenches)]
-    if working and not {column.name for column in working}.isdisjoint(undetermined()):
+    per_unit = {column.name: _power_of(motion, column.wrenches) for column in columns}
+    working = {name: power for name, power in per_unit.items() if power}
+    if working and not working.keys().isdisjoint(undetermined()):
         return loads + _power_of(motion, required.items())
-    return sum((reaction_power(motion, column, values) for column in working), loads)
+    return sum((power * values()[name] for name, power in working.items()), loads)
 
 
 def _supplied_by(motion: Kinematics, load: Load, reactions: ReactionValues) -> Expr:

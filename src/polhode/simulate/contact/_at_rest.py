@@ -14,7 +14,7 @@ import numpy as np
 from polhode.algebra import Expr, SymbolKind
 from polhode.derive import Mode
 from polhode.model import DryFriction
-from polhode.simulate.contact._cones import Affine, Cone, can_hold
+from polhode.simulate.contact._cones import Affine, FrictionCone, can_hold
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.contact._open_forces import null_space
@@ -45,7 +45,7 @@ def rests(hybrid: HybridSystem, entry: ModeState) -> bool | None:
         return None
     free = null_space(columns)
     cones = [
-        Cone(most, *(_affine(particular, free, names, n) for n in (normal, *along)))
+        FrictionCone(most, *(_affine(particular, free, names, n) for n in (normal, *along)))
         for most, normal, along in _limits(hybrid, mode.mode)
     ]
     scale = float(np.max(np.abs(particular), initial=0.0))

@@ -16,7 +16,7 @@ HELD = 1e-12  # of the largest force: forces this far outside their cones are at
 Affine = tuple[float, Array]
 
 
-class Cone:
+class FrictionCone:
     """μ N - |T| of a contact, where N and T depend on the free reactions; or N, with no limit."""
 
     def __init__(self, most: float, normal: Affine, *along: Affine) -> None:
@@ -49,7 +49,7 @@ class _Search:
     """Reactions that raise the least reserve of all cones, by a barrier (Boyd and Vandenberghe,
     Convex Optimization, 2004, sect. 11.3)."""
 
-    cones: Sequence[Cone]
+    cones: Sequence[FrictionCone]
     free: Array
     least: float
 
@@ -83,7 +83,7 @@ class _Search:
         return all(cone.reserve(free) > least for cone in self.cones)
 
 
-def can_hold(cones: Sequence[Cone], count: int, scale: float) -> bool:
+def can_hold(cones: Sequence[FrictionCone], count: int, scale: float) -> bool:
     """Whether there are free reactions for which all forces lie within their cones.
 
     Args:
@@ -107,7 +107,7 @@ def can_hold(cones: Sequence[Cone], count: int, scale: float) -> bool:
     return False
 
 
-def strained(cones: Sequence[Cone], count: int, scale: float) -> tuple[int, ...]:
+def strained(cones: Sequence[FrictionCone], count: int, scale: float) -> tuple[int, ...]:
     """The cones at whose edges the forces are, where their least reserve is largest."""
     free = np.zeros(count)
     search = _Search(cones, free, min(cone.reserve(free) for cone in cones) - scale)

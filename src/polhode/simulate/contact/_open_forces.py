@@ -19,7 +19,7 @@ from polhode.algebra import ONE
 from polhode.base import bisected
 from polhode.derive import BalanceTable, Guard, Mode
 from polhode.model import ContactLaw, DryFriction
-from polhode.simulate.contact._cones import Cone, can_hold, strained
+from polhode.simulate.contact._cones import FrictionCone, can_hold, strained
 from polhode.simulate.integrate._arrays import Array
 
 _INDEPENDENT = 1e-10  # of the largest singular value: smaller ones are rounding
@@ -163,7 +163,9 @@ class OpenForces:
         cones, scale = self._cones(forces, coefficients)
         return can_hold(cones, forces.free.shape[1], scale)
 
-    def _cones(self, forces: _Forces, coefficients: Sequence[float]) -> tuple[list[Cone], float]:
+    def _cones(
+        self, forces: _Forces, coefficients: Sequence[float]
+    ) -> tuple[list[FrictionCone], float]:
         """The discs of friction, and the size of the forces.
 
         Friction in proportion to the limits, as far as that balances, is where to begin: it is
@@ -182,7 +184,7 @@ class OpenForces:
         first = np.linalg.lstsq(weighted, -(along * weights[:, None]).ravel(), rcond=None)[0]
         along, fixed = along + slopes @ first, np.zeros(slopes.shape[-1])
         cones = [
-            Cone(1.0, (limit, fixed), *zip(force.tolist(), changes, strict=True))
+            FrictionCone(1.0, (limit, fixed), *zip(force.tolist(), changes, strict=True))
             for limit, force, changes in zip(limits.tolist(), along, slopes, strict=True)
         ]
         return cones, float(max(np.max(limits, initial=0.0), np.max(np.abs(along), initial=0.0)))
