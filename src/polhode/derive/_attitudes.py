@@ -194,6 +194,8 @@ def with_turned_angles(system: System, chosen: Iterable[AngleTriple]) -> System:
         name=system.name,
         independent=map(Expr.generator, independent),
         speeds=kept,
+        impacts=system.impacts,
+        sharing=system.sharing,
     )
 
 

@@ -29,12 +29,8 @@ from polhode.simulate._mode_integration import PieceEnd, StateValues, integrate_
 from polhode.simulate._segment import TrajectoryPiece, state_at
 from polhode.simulate._start import Start, check_start, read_start, unchecked_start
 from polhode.simulate._task import AS_DECLARED, InitialState, MotionResult, Task, timed
-from polhode.simulate._turned_angles import (
-    AttitudeChoices,
-    TurnedEquations,
-    TurnedPiece,
-    turned_piece,
-)
+from polhode.simulate._turned_angles import AttitudeChoices, TurnedEquations
+from polhode.simulate._turned_piece import TurnedPiece, turned_piece
 from polhode.simulate._values import Numbers, idle_parameters, read_parameters
 from polhode.simulate._vanishing_lengths import refuse_lost_stretch, refuse_vanishing
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion, prescribed_motion
@@ -145,7 +141,7 @@ class _DeclaredPieces:
         if turned is None:
             return read_start(self.whole, self._task.start, self._values)
         constants = self._constants_of(turned.dynamics, 0.0)
-        values = turned.state(state, self._constants, 0.0)
+        values = turned.angles.state(state, self._constants, 0.0)
         known = dict(zip(turned.dynamics.parameters, constants.tolist(), strict=True))
         check_start(turned.dynamics, Start(values, {}), known)
         return start
@@ -297,7 +293,7 @@ class _DeclaredPieces:
         constants = self._constants_of(dynamics, now)
         own = dict(state)
         if not set(dynamics.states) <= own.keys():
-            values = turned.state(state, declared, now)
+            values = turned.angles.state(state, declared, now)
             own |= zip(dynamics.states, values.tolist(), strict=True)
         span = (now, self._drive.until(now, end))
         criteria = StopCriteria(_PAUSE, over=turned.overshoot(), tally=self._tally)
@@ -308,7 +304,7 @@ class _DeclaredPieces:
             raise broken_at(dynamics.equations, own, reached)
         inside = TrajectoryPiece(now, reached, found, constants)
         refuse_vanishing(dynamics, inside)
-        piece = turned_piece(turned, inside, state, declared)
+        piece = turned_piece(turned.angles, inside, state, declared)
         self._constants = declared
         there = {WORK: 0.0, **state_at(piece, reached), **state_at(inside, reached)}
         return PieceEnd(piece, there, reached, None, is_last=found.stop is Stop.INTERRUPTED)
