@@ -14,8 +14,9 @@ from math import prod
 
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, length, named, variables
 from polhode.base import ConstraintError, DeclarationError, Shown, look_up
+from polhode.derive._attitudes import AngleTriple, with_turned_angles
 from polhode.derive._balance_table import BalanceTable, balance_table
-from polhode.derive._derive import derive
+from polhode.derive._derive import derive, derive_in_parts
 from polhode.derive._equations import Equations
 from polhode.derive._motion import Kinematics
 from polhode.derive._speed_choice import may_become_singular, on_independent
@@ -257,10 +258,12 @@ class Automaton(Shown):
     Attributes:
         system: the declaration.
         declared: the modes on the speeds of the declaration, where these are on others.
+        in_declared_angles: the modes in the angles of the declaration, where these are in others.
     """
 
     system: System
     declared: Automaton | None = None
+    in_declared_angles: Automaton | None = None
     _known: dict[Phases, Mode] = field(default_factory=dict, repr=False, compare=False)
 
     @cached_property
@@ -317,7 +320,17 @@ class Automaton(Shown):
             speeds: those to be kept; where a mode leaves fewer, the first of them.
         """
         changed = with_independent(self.system, map(Expr.generator, speeds))
-        return Automaton(changed, self.declared or self)
+        return Automaton(changed, self.declared or self, self.in_declared_angles)
+
+    def in_turned_angles(self, attitudes: Iterable[AngleTriple]) -> Automaton:
+        """The same modes with the angles of some attitudes counted from turned axes."""
+        return Automaton(with_turned_angles(self.system, attitudes), None, self)
+
+    @property
+    def reaction_names(self) -> tuple[str, ...]:
+        """Names of all reactions where everything touches; the same on all speeds and angles."""
+        original = self.in_declared_angles or self
+        return (original.declared or original).together.equations.reaction_names
 
     @cached_property
     def parameters(self) -> tuple[Symbol, ...]:
@@ -419,7 +432,7 @@ class Automaton(Shown):
             elements[contact.name] = option[phase]
         system = with_elements(self.system, elements)
         if self.declared is None:
-            equations = derive(system)
+            equations = derive_in_parts(system) if self.in_declared_angles else derive(system)
         else:
             known = self.declared.mode(chosen).equations.kinetics.all_speeds
             equations = on_independent(system, (s for s in system.independent if s in known))

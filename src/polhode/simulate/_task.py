@@ -18,8 +18,8 @@ from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
 from polhode.simulate.integrate._stepping import Integrator
 
 if TYPE_CHECKING:
+    from polhode.simulate.contact._description_changes import SpeedChange
     from polhode.simulate.contact._hybrid_system import HybridSystem
-    from polhode.simulate.contact._speed_changes import SpeedChange
 
 AS_DECLARED = "as declared"
 

@@ -26,7 +26,7 @@ def dynamics_of(
     known = dict(mode.embedding)
     # Reactions of open contacts are zero.
     own = mode.equations.reaction_names
-    known |= {Symbol(n): ZERO for n in modes.together.equations.reaction_names if n not in own}
+    known |= {Symbol(n): ZERO for n in modes.reaction_names if n not in own}
     # Slip velocities of closed contacts follow from the state unless they are integrated.
     for touch, phase in zip(mode.touches, mode.phases, strict=True):
         slips = () if phase.flies else zip(slip_symbols(touch.contact), touch.slip, strict=True)

@@ -9,7 +9,7 @@ the next mode: the one whose contacts can supply the forces that it needs.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from polhode.base import NumericError
 from polhode.model import Contact, Rolling
@@ -17,10 +17,15 @@ from polhode.simulate._absolute_values import SideChangeCount
 from polhode.simulate._event import ModeSwitch
 from polhode.simulate._mode_integration import ModeRun, integrate_mode
 from polhode.simulate._segment import Segment
+from polhode.simulate.contact._attitude_charts import in_regular_angles
+from polhode.simulate.contact._description_changes import (
+    DescriptionChange,
+    SpeedChange,
+    described_otherwise,
+)
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._mode_pieces import ModePieces
 from polhode.simulate.contact._mode_state import ModeState
-from polhode.simulate.contact._speed_changes import SpeedChange, on_other_speeds
 from polhode.simulate.contact._transition import Transitions
 from polhode.simulate.integrate._stop_criteria import Stop
 
@@ -69,7 +74,7 @@ class HybridIntegrator:
         self._until = until
         self._segments: list[Segment] = []
         self._changes: list[ModeSwitch] = []
-        self._speed_changes: list[tuple[float, SpeedChange]] = []
+        self._described: list[tuple[float, DescriptionChange]] = []
         self._instants: list[float] = []
         self._transitions = Transitions(hybrid)
         self._side_changes = SideChangeCount()
@@ -92,12 +97,13 @@ class HybridIntegrator:
             if last is not None:
                 self._changes.append(last)
                 return self._solution(last.after)
-            if isinstance(change := run.last.guard, SpeedChange):
-                self._speed_changes.append((now, change))
-                leaving = pieces.exit(run.last)
-                entry = on_other_speeds(self._hybrid, change.speeds, entry, leaving, run.last.state)
+            leaving = pieces.exit(run.last)
+            if isinstance(change := run.last.guard, DescriptionChange):
+                self._described.append((now, change))
+                entry = described_otherwise(self._hybrid, change, entry, leaving, run.last.state)
                 continue
-            kind, entry = self._transitions.next(entry, pieces.exit(run.last))
+            leaving = replace(leaving, shared=in_regular_angles(self._hybrid, leaving.shared))
+            kind, entry = self._transitions.next(entry, leaving)
             time, before = run.segments[-1].end, pieces.name
             after = self._hybrid.mode(entry.phases).mode.name
             self._changes.append(ModeSwitch(time, kind, before, after))
@@ -108,9 +114,8 @@ class HybridIntegrator:
         return self._solution(self._segments[-1].mode)
 
     def _solution(self, ending: str) -> HybridSolution:
-        return HybridSolution(
-            tuple(self._segments), tuple(self._changes), ending, tuple(self._speed_changes)
-        )
+        speeds = tuple((time, c) for time, c in self._described if isinstance(c, SpeedChange))
+        return HybridSolution(tuple(self._segments), tuple(self._changes), ending, speeds)
 
     def _refuse_chatter(self, time: float, end: float) -> None:
         """Refuse a motion with more changes of mode than can be followed.

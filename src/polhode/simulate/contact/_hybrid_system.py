@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from polhode.algebra import Compiled, Expr, Symbol, compile_program
-from polhode.base import NumericError
+from polhode.base import ByIdentity, NumericError
 from polhode.derive import Automaton, Mode
-from polhode.model import ContactLaw, DryFriction, Phase, Slipping
+from polhode.model import ContactLaw, DryFriction, Frame, Phase, Slipping
 from polhode.simulate._absolute_values import Instant, Sides, guards_of_sides, sides_at
 from polhode.simulate._dynamics import CLOCK, Dynamics
-from polhode.simulate._gimbal_lock import broken_at
+from polhode.simulate._gimbal_lock import NumericAttitude, attitudes_of, broken_at
 from polhode.simulate._independent_speeds import SpeedDependence
+from polhode.simulate._other_angles import OtherAngles
 from polhode.simulate.contact._auxiliary_states import dynamics_of
 from polhode.simulate.contact._contact_kinematics import Function, State, Touching
 from polhode.simulate.contact._mode_expressions import (
@@ -32,6 +33,9 @@ from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._stepping import IntegratedEquations, Integrator
 
 Constants = Mapping[Symbol, float]
+
+#: The attitudes whose angles are counted from turned axes, by their places.
+Chart = tuple[int, ...]
 
 _SINGULAR = 1e15  # condition of a mass matrix with a diagonal of ones that is rounding
 
@@ -62,18 +66,24 @@ class HybridSystem:
         self.numbers = numbers
         self.in_doubles = in_doubles or self
         self.declared = automaton
-        self._on_speeds: dict[tuple[Symbol, ...], tuple[Automaton, _Modes, list[Touching]]] = {}
-        self.on_speeds(())
+        self._in_angles: dict[Chart, Automaton] = {(): automaton}
+        self._known: dict[_Description, tuple[Automaton, _Modes, list[Touching]]] = {}
+        self._describe((), ())
         self.drive = drive
         self.set_constants(constants)
         self.integrator = integrator
         self.tolerance = tolerance
         self._functions: dict[tuple[Expr, tuple[Symbol, ...]], Compiled] = {}
+        self._other_angles: dict[tuple[int, int], OtherAngles] = {}
+        self.possible_charts: dict[Chart, bool] = {}
 
     def set_constants(self, constants: Constants) -> None:
         """Take other values of the same parameters, for another motion from the beginning."""
         self._held = self.drive.constants(0.0)
         self.constants: Constants = dict(constants) | dict(self._held)
+        self._describe((), self.speeds_in(()))
+        #: The declared angles in place of which others are counted, as followed over turns.
+        self.declared_angles: dict[Symbol, float] = {}
 
     def update_forcing(self, now: float) -> None:
         """Take the coefficients of the prescribed motions that hold from an instant on."""
@@ -95,12 +105,81 @@ class HybridSystem:
         """
         if self.in_doubles is not self:
             self.in_doubles.on_speeds(speeds)
-        if speeds not in self._on_speeds:
-            modes = self.declared.on_speeds(speeds) if speeds else self.declared
-            self._on_speeds[speeds] = modes, {}, []
-        self.speeds = speeds
-        self.automaton, self._modes, self._touching = self._on_speeds[speeds]
+        self._describe(self.chart, speeds)
+
+    def in_angles(self, chart: Chart) -> None:
+        """Go on with the modes in other angles, on the speeds that correspond to the present."""
+        self._describe(chart, self.speeds_in(chart))
+
+    def speeds_in(self, chart: Chart) -> tuple[Symbol, ...]:
+        """The speeds in other angles that correspond to the present independent ones."""
+        chosen = [self.attitudes[i] for i in {*chart} ^ {*self.chart}]
+        names = {
+            one: other
+            for attitude in chosen
+            for pair in zip(attitude.angles, attitude.turned, strict=True)
+            for one, other in (pair, pair[::-1])
+        }
+        return tuple(Symbol(names.get(u.base(), u).name, u.kind, u.order) for u in self.speeds)
+
+    def _describe(self, chart: Chart, speeds: tuple[Symbol, ...]) -> None:
+        self.chart, self.speeds = chart, speeds
+        self.automaton, self._modes, self._touching = self._described(chart, speeds)
         self.__dict__.pop("separated", None)
+
+    def _described(
+        self, chart: Chart, speeds: tuple[Symbol, ...]
+    ) -> tuple[Automaton, _Modes, list[Touching]]:
+        """The modes in some angles and on some speeds, with what is compiled of them."""
+        if chart not in self._in_angles:
+            turned = (self.attitudes[i].declared for i in chart)
+            self._in_angles[chart] = self.declared.in_turned_angles(turned)
+        if (chart, speeds) not in self._known:
+            modes = self._in_angles[chart]
+            modes = modes.on_speeds(speeds) if speeds else modes
+            self._known[chart, speeds] = modes, {}, []
+        return self._known[chart, speeds]
+
+    @cached_property
+    def attitudes(self) -> tuple[NumericAttitude, ...]:
+        """The attitudes whose angles can be counted otherwise near gimbal lock; in doubles only.
+
+        The components of all contact forces mean the same then, and no absolute values occur.
+        """
+        modes = self.declared
+        equations, given = modes.separated.equations, self.drive.expressions
+        plain = dynamics_of(modes, modes.separated, given, self.constants)
+        if self.in_doubles is not self or plain.undecided:
+            return ()
+        frames = {
+            cast(Frame, contact.on.axes[label].triad)
+            for contact in modes.contacts
+            for label in (*contact.on.tangents, contact.on.normal)
+        }
+        return tuple(
+            attitude
+            for attitude in attitudes_of(ByIdentity(equations))
+            if attitude.can_be_turned and all(map(attitude.declared.is_same_along, frames))
+        )
+
+    def angles_between(
+        self, declared: Dynamics, turned: Dynamics, chosen: Iterable[int]
+    ) -> OtherAngles:
+        """A mode in two choices of angles, from the places of the attitudes that differ."""
+        key = id(declared), id(turned)
+        if key not in self._other_angles:
+            attitudes = [self.attitudes[i] for i in chosen]
+            self._other_angles[key] = OtherAngles(declared, turned, attitudes)
+        return self._other_angles[key]
+
+    def dynamics_in(self, chart: Chart, phases: tuple[Phase, ...]) -> Dynamics:
+        """A mode in other angles, on the speeds that correspond to the present ones."""
+        modes, known, _ = self._described(chart, self.speeds_in(chart))
+        if phases not in known:
+            mode, given = modes.mode(phases), self.drive.expressions
+            dynamics = dynamics_of(modes, mode, given, self.constants)
+            known[phases] = CompiledMode(self, mode, dynamics)
+        return known[phases].dynamics
 
     def value(self, expression: Expr) -> Any:
         """The value of an expression of constants."""
@@ -139,6 +218,7 @@ class HybridSystem:
 
 
 _Modes = dict[tuple[Phase, ...], "CompiledMode"]
+_Description = tuple[Chart, tuple[Symbol, ...]]  # the angles, and the independent speeds
 
 
 class CompiledMode(IntegratedEquations):

@@ -27,19 +27,25 @@ from polhode.simulate._dynamics import WORK, Dynamics
 from polhode.simulate._independent_speeds import SpeedWatch
 from polhode.simulate._mode_integration import PieceEnd, StateValues
 from polhode.simulate._segment import TrajectoryPiece, state_at
+from polhode.simulate._turned_piece import TurnedPiece
 from polhode.simulate._vanishing_lengths import refuse_lost_stretch, refuse_vanishing
+from polhode.simulate.contact._attitude_charts import (
+    angles_change,
+    as_declared,
+    has_left_angles,
+)
 from polhode.simulate.contact._auxiliary_states import (
     edge_distance_symbol,
     gap_symbol,
     slip_symbols,
 )
 from polhode.simulate.contact._contact_kinematics import State, fall_of
+from polhode.simulate.contact._description_changes import speed_change
 from polhode.simulate.contact._guard_monitor import GuardMonitor
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, beyond, directions_of, state_on
 from polhode.simulate.contact._onset_directions import NO_SLIP
 from polhode.simulate.contact._slip_onset import slip_onset_piece
-from polhode.simulate.contact._speed_changes import speed_change
 from polhode.simulate.contact._transition import ModeExit
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._driver import integrate
@@ -241,6 +247,20 @@ class DoublePieces(ModePieces):
     def stored_time(self, time: float) -> float:
         return time
 
+    @property
+    def dynamics(self) -> Dynamics:
+        hybrid = self._hybrid
+        return hybrid.dynamics_in((), self._entry.phases) if hybrid.chart else super().dynamics
+
+    def next(
+        self, state: StateValues, now: float, end: float, before: TrajectoryPiece | None
+    ) -> PieceEnd:
+        own = before.turned if isinstance(before, TurnedPiece) else before
+        found = super().next(state, now, end, own)
+        if not self._hybrid.chart:
+            return found
+        return replace(found, piece=as_declared(self._hybrid, self._mode, found.piece))
+
     def _shortest(self) -> float:
         begin = self._entry.shared.time
         return _BEGUN * begin if self._entry.onset else float(super()._shortest())
@@ -276,9 +296,11 @@ class DoublePieces(ModePieces):
         except NumericError:
             refuse_lost_stretch(self._mode.dynamics, whole)  # if that is the reason
             raise
-        if guard is None and speeds is not None:
+        if guard is None:
             there = state_at(piece, piece.end)
-            guard = speed_change(self._hybrid, self._entry.phases, there, piece.end)
+            guard = angles_change(self._hybrid, there)
+            if guard is None and speeds is not None:
+                guard = speed_change(self._hybrid, self._entry.phases, there, piece.end)
         again = shorter_span(solution.steps, piece.end) if may_be_overshot(guard) else None
         if again is not None:
             return self._up_to(rest, (span[0], again), criteria)
@@ -291,7 +313,9 @@ class DoublePieces(ModePieces):
         core, checks = mode.flow.core.symbols, list[Callable[[float, Sequence[float]], bool]]()
         if self._watch and (check := self._watch.overshoot(core, mode.parameters)):
             checks.append(check)
-        if not (mode.mode.guards or mode.side_guards or self._watch):
+        if check := has_left_angles(self._hybrid, core):
+            checks.append(check)
+        if not (mode.mode.guards or mode.side_guards or checks or self._watch):
             return StopCriteria(tally=self._tally)
         # Where a disk is beyond flat, or an absolute value beyond the end of its side, the
         # equations do not hold, and going on with them may take any number of steps.

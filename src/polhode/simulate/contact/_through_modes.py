@@ -22,13 +22,14 @@ from polhode.simulate._names import published
 from polhode.simulate._start import read_start, unchecked_start
 from polhode.simulate._task import Guarded, InitialState, MotionResult, Task, timed
 from polhode.simulate._values import idle_parameters, read_parameters
+from polhode.simulate.contact._attitude_charts import in_regular_angles
 from polhode.simulate.contact._contact_kinematics import NO_NORMAL_SPEED, State
+from polhode.simulate.contact._description_changes import choose_at_start
 from polhode.simulate.contact._hybrid_integrator import HybridIntegrator
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._mode_pieces import double_pieces
 from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.contact._select_mode import ContactStatus, select_mode
-from polhode.simulate.contact._speed_changes import choose_at_start
 from polhode.simulate.forcing._prescribed_motion import prescribed_motion
 
 # Coefficients of friction other than zero: beyond these limits friction is lost in the rounding of
@@ -93,6 +94,7 @@ def initial_mode(hybrid: HybridSystem, shared: State, separated: frozenset[int])
         ConstraintError: for a body that starts within its support.
         NumericError: where no mode is possible.
     """
+    shared = in_regular_angles(hybrid, shared)
     points = hybrid.touching.at(shared, hybrid.touching.beyond(shared))
     rounding = [_ROUNDING * float(point.extent) for point in points]
     for i in separated:
@@ -138,11 +140,13 @@ class ThroughModes:
             pieces = double_pieces(hybrid, task.near_flat, progress)
             integrator = HybridIntegrator(hybrid, pieces, task.until)
             shared, initial, separated = _begin(hybrid, task)
-            first, speeds = initial_mode(hybrid, shared, separated), hybrid.speeds
+            first = initial_mode(hybrid, shared, separated)
+            speeds = hybrid.speeds_in(())
             assumed = {**initial.start.assumed, **_assumed_to_roll(hybrid, shared, task)}
             hybrid.mode(first.phases).stepper  # noqa: B018
         with timed(task, "integrate"):
             solution = integrator.integrate(first, task.end)
+        hybrid.in_angles(())
         hybrid.on_speeds(speeds)
         return MotionResult(
             solution.segments,

@@ -277,7 +277,7 @@ class Transitions:
 
     def _refuse_impulsive_loads(self, i: int, time: float) -> None:
         """Refuse an impact in a system with loads or couples in proportion to reactions."""
-        modes = self._hybrid.automaton
+        modes = self._hybrid.declared
         lines, name = modes.together.equations.lines, modes.contacts[i].name
         found = [f"loads in proportion to {line.name}" for line in lines if line.loads]
         found += [modes.contacts[k].name for k in self._hybrid.closing_with(i) - {i}]

@@ -29,6 +29,8 @@ _CONVERGED = 1e-14  # last two coefficients of a converged series, over the larg
 # whose own terms cancel); a smooth function reduces them to far less than a quarter.
 _NOISE = 1e-8
 _FALLING = 0.25
+# The last coefficients of noise: those of its values, times (2k + 1)/2 over the root of their number.
+_NOISY_TAIL = 4.0
 _SHORTEST = 1e-11  # length of a piece over the time: shorter ones have no digits left
 _ONLY_NOISE = 1e-3  # uncertainty over the largest value: above, a function is only rounding
 _MOST = 100_000  # new pieces at a time; nothing smooth needs more
@@ -102,9 +104,12 @@ def resolved(
         coefficients = values @ _ANALYSIS.T  # shape (functions, pieces, order)
         largest = np.max(np.abs(coefficients), axis=(1, 2), keepdims=True)
         scale = np.maximum(scale, largest)
-        tails = np.abs(coefficients[:, :, -2:]) / np.where(scale > 0, scale, 1.0)
+        sizes = np.where(scale > 0, scale, 1.0)
+        tails = np.abs(coefficients[:, :, -2:]) / sizes
         if noise is not None:
-            tails[(noise > _ONLY_NOISE * scale[:, 0, 0]).nonzero()] = 0.0
+            uncertain = noise / sizes[:, 0, 0]
+            tails[uncertain > _ONLY_NOISE] = 0.0
+            tails[tails <= _NOISY_TAIL * uncertain[:, None, None]] = 0.0
         tail = np.max(tails, axis=(0, 2), initial=0.0)
         rough = (tail > _CONVERGED) & ((tail > _NOISE) | (tail < _FALLING * before))
         rough &= (right - left > _SHORTEST * np.abs(right)) & (np.sum(rough) < _MOST)

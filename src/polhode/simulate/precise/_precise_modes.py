@@ -15,13 +15,13 @@ from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._mode_integration import PieceEnd, StateValues
 from polhode.simulate._segment import TrajectoryPiece
 from polhode.simulate._vanishing_lengths import refuse_vanishing
+from polhode.simulate.contact._description_changes import SpeedChange
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._mode_expressions import vanishing_expression
 from polhode.simulate.contact._mode_pieces import REVERSED, VANISHED, ModePieces, may_be_overshot
 from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.contact._open_forces import GivesWay
 from polhode.simulate.contact._slip_onset import polar_shape
-from polhode.simulate.contact._speed_changes import SpeedChange
 from polhode.simulate.integrate._flint import SlipSeries
 from polhode.simulate.integrate._stop_criteria import StepCount, Stop, StopCriteria
 from polhode.simulate.precise._precise_piece import (

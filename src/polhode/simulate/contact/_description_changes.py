@@ -1,7 +1,11 @@
-"""Other independent speeds for all contact modes, where those of a motion become singular."""
+"""Other coordinates or independent speeds for all contact modes, where those become singular.
+
+The contacts stay as they are.
+"""
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
@@ -15,6 +19,7 @@ from polhode.simulate._mode_integration import StateValues
 from polhode.simulate._names import Name
 from polhode.simulate._start import configuration_at_start
 from polhode.simulate.contact._auxiliary_states import slip_symbols
+from polhode.simulate.contact._contact_kinematics import State
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, beyond, entered
 from polhode.simulate.contact._regular_speeds import in_terms_of, regular_speeds
@@ -22,14 +27,32 @@ from polhode.simulate.contact._transition import ModeExit
 
 
 @dataclass(frozen=True)
-class SpeedChange(Guard):
-    """Ends a piece where other speeds have to be independent; the contacts stay as they are.
+class DescriptionChange(Guard):
+    """Ends a piece where the modes have to be described otherwise."""
+
+    @abstractmethod
+    def applied(self, hybrid: HybridSystem, phases: tuple[Phase, ...], shared: State) -> State:
+        """Go on in the other description, of which a shared state is made then.
+
+        Args:
+            hybrid: the modes.
+            phases: of the one that the motion is in.
+            shared: in terms of the description before.
+        """
+
+
+@dataclass(frozen=True)
+class SpeedChange(DescriptionChange):
+    """Ends a piece where other speeds have to be independent.
 
     Attributes:
         speeds: these.
     """
 
     speeds: tuple[Symbol, ...] = ()
+
+    def applied(self, hybrid: HybridSystem, phases: tuple[Phase, ...], shared: State) -> State:
+        return in_terms_of(hybrid, self.speeds, shared)
 
 
 def speed_change(
@@ -61,22 +84,22 @@ def choose_at_start(
     hybrid.on_speeds(regular_speeds(hybrid, mode, coordinates, 0.0, at_start=True))
 
 
-def on_other_speeds(
+def described_otherwise(
     hybrid: HybridSystem,
-    speeds: tuple[Symbol, ...],
+    change: DescriptionChange,
     entry: ModeState,
     leaving: ModeExit,
     state: StateValues,
 ) -> ModeState:
-    """Go on in the same contact mode on other independent speeds.
+    """Go on in the same contact mode in another description.
 
     Args:
-        speeds: those that become independent.
+        change: to it.
         entry: where the mode was entered.
         leaving: where a piece of it ended.
         state: the same, with the slip velocities as they were integrated.
     """
-    there = in_terms_of(hybrid, speeds, leaving.shared)
+    there = change.applied(hybrid, entry.phases, leaving.shared)
     points = hybrid.touching.at(there, beyond(entry.phases))
     again = entered(hybrid, there, entry.phases, points, frozenset())
     contacts = enumerate(hybrid.automaton.contacts)

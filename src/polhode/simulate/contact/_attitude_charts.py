@@ -1,0 +1,169 @@
+"""Contact modes near gimbal lock: in angles counted from turned axes, as free motions are.
+
+A box that lies on the face across the axis of its last rotation is in gimbal lock. All modes go
+over to other angles together (`HybridSystem.in_angles`); the motion is read in those of the
+declaration (`TurnedPiece`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from polhode.algebra import ONE, Symbol
+from polhode.base import PolhodeError
+from polhode.model import Phase
+from polhode.simulate._dynamics import Dynamics
+from polhode.simulate._segment import TrajectoryPiece, state_at
+from polhode.simulate._turned_piece import TurnedPiece, turned_piece
+from polhode.simulate.contact._contact_kinematics import State
+from polhode.simulate.contact._description_changes import DescriptionChange
+from polhode.simulate.contact._hybrid_system import Chart, CompiledMode, HybridSystem
+from polhode.simulate.contact._regular_speeds import on_regular_speeds
+from polhode.simulate.integrate._arrays import Array
+
+
+@dataclass(frozen=True)
+class AnglesChange(DescriptionChange):
+    """Ends a piece where angles have to be counted otherwise.
+
+    Attributes:
+        chart: the attitudes of which.
+    """
+
+    chart: Chart = ()
+
+    def applied(self, hybrid: HybridSystem, phases: tuple[Phase, ...], shared: State) -> State:
+        return on_regular_speeds(hybrid, phases, _in_angles(hybrid, self.chart, shared))
+
+
+def angles_change(hybrid: HybridSystem, state: Mapping[Symbol, Any]) -> AnglesChange | None:
+    """The change to angles that are regular in a state of any mode; None where these are."""
+    chart = _chart_at(hybrid, state)
+    return None if chart == hybrid.chart else AnglesChange(None, "other angles", ONE, chart)
+
+
+def in_regular_angles(hybrid: HybridSystem, shared: State) -> State:
+    """A shared state in angles that are regular there, with which all modes then go on."""
+    chart = _chart_at(hybrid, _coordinates(hybrid, shared))
+    return shared if chart == hybrid.chart else _in_angles(hybrid, chart, shared)
+
+
+def has_left_angles(
+    hybrid: HybridSystem, core: Sequence[Symbol]
+) -> Callable[[float, Sequence[float]], bool] | None:
+    """Whether angles have to be counted otherwise at the end of a step; None if they never have.
+
+    Args:
+        core: the states that are integrated.
+    """
+    if not hybrid.attitudes:
+        return None
+    angles = {q for a in hybrid.attitudes for q in (*a.angles, *a.turned)}
+    places = [(q, i) for i, q in enumerate(core) if q in angles]
+
+    def over(time: float, state: Sequence[float]) -> bool:
+        return _chart_at(hybrid, {q: state[i] for q, i in places}) != hybrid.chart
+
+    return over
+
+
+def as_declared(hybrid: HybridSystem, mode: CompiledMode, piece: TrajectoryPiece) -> TurnedPiece:
+    """A piece of a mode in other angles, as it is read."""
+    declared = hybrid.dynamics_in((), mode.mode.phases)
+    angles = hybrid.angles_between(declared, mode.dynamics, hybrid.chart)
+    known = dict(zip(mode.dynamics.parameters, piece.constants.tolist(), strict=True))
+    constants = np.array([known[s] for s in angles.declared.parameters])
+    found = turned_piece(angles, piece, hybrid.declared_angles, constants)
+    there = state_at(found, found.end)
+    hybrid.declared_angles = {q: there[q] for q in hybrid.declared_angles}
+    return found
+
+
+# -- which angles ----------------------------------------------------------------------------------
+
+
+def _chart_at(hybrid: HybridSystem, known: Mapping[Symbol, Any]) -> Chart:
+    """The attitudes whose angles are to be counted otherwise, from the angles of a state.
+
+    Those whose angles are not known stay as they are.
+    """
+    chart = []
+    for i, attitude in enumerate(hybrid.attitudes):
+        (first, second, _), geometry = attitude.turned, attitude.geometry
+        if i not in hybrid.chart:
+            angle = attitude.angles[1]
+            near = angle in known and geometry.is_near_pole(known[angle], attitude.near)
+        elif known.keys() >= {first, second}:
+            declared, own = geometry.sines(known[first], known[second])
+            near = declared < attitude.far and own > attitude.near
+        else:
+            near = True
+        if near:
+            chart.append(i)
+    found = tuple(chart)
+    return found if found == hybrid.chart or _is_same_motion(hybrid, found) else hybrid.chart
+
+
+def _is_same_motion(hybrid: HybridSystem, chart: Chart) -> bool:
+    """Whether the system can be described in some angles."""
+    if chart not in hybrid.possible_charts:
+        hybrid.possible_charts[chart] = not chart or _agrees(hybrid, chart)
+    return hybrid.possible_charts[chart]
+
+
+def _agrees(hybrid: HybridSystem, chart: Chart) -> bool:
+    def numbers(dynamics: Dynamics) -> Array:
+        return np.array([hybrid.constants[s] for s in dynamics.parameters])
+
+    declared = _separated(hybrid, ())
+    anywhere = dict.fromkeys(declared.states, 0.4)
+    try:
+        angles = hybrid.angles_between(declared, _separated(hybrid, chart), chart)
+        return angles.is_same_motion(anywhere, numbers)
+    except PolhodeError:  # what was declared along the axes between needs them as they are
+        return False
+
+
+# -- states in other angles ------------------------------------------------------------------------
+
+
+def _in_angles(hybrid: HybridSystem, chart: Chart, shared: State) -> State:
+    """Go on with other angles, in which a shared state is then described."""
+    before, time = hybrid.chart, np.array([shared.time])
+    source, own = _separated(hybrid, before), np.concatenate([shared.coordinates, shared.speeds])
+    constants = hybrid.separated.parameters
+    if entered := [i for i in chart if i not in before]:
+        all_of_them = tuple(sorted({*before, *entered}))
+        target = _separated(hybrid, all_of_them)
+        angles = hybrid.angles_between(source, target, entered)
+        known = dict(zip(source.states, own.tolist(), strict=True))
+        hybrid.declared_angles |= {q: known[q] for a in angles.chosen for q in a.angles}
+        own = angles.turned_states(own[:, None], constants, time)[:, 0]
+        source = target
+    if left := [i for i in before if i not in chart]:
+        target = _separated(hybrid, chart)
+        angles = hybrid.angles_between(target, source, left)
+        followed = hybrid.declared_angles
+        choices = angles.choices(followed, shared.time)
+        own = angles.declared_states(own[:, None], constants, time, choices)[:, 0]
+        for q in [q for a in angles.chosen for q in a.angles]:
+            place = target.states.index(q)
+            own[place] += 2 * np.pi * np.round((followed[q] - own[place]) / (2 * np.pi))
+        hybrid.declared_angles = {q: followed[q] for q in followed if q not in target.states}
+    hybrid.in_angles(chart)
+    count = len(shared.coordinates)
+    return State(shared.time, own[:count], own[count:], shared.work)
+
+
+def _separated(hybrid: HybridSystem, chart: Chart) -> Dynamics:
+    """The mode in which nothing touches, in some angles, on coordinates and speeds alone."""
+    return hybrid.dynamics_in(chart, hybrid.separated.mode.phases).without_auxiliary
+
+
+def _coordinates(hybrid: HybridSystem, shared: State) -> dict[Symbol, Any]:
+    known = hybrid.separated.mode.equations.coordinates
+    return dict(zip(known, shared.coordinates, strict=True))
