@@ -473,13 +473,14 @@ class Equations(Shown):
     def _roles_of_reactions(self) -> dict[str, tuple[Expr, Dimension]]:
         """What has the dimension of a reaction, or determines it, by role.
 
-        Solved in parts, reactions say nothing about symbols that are hidden in the parts. Then the
-        balances do as well, and need not be solved.
+        Solved in parts, reactions say nothing about symbols that are hidden in the parts, and those
+        that are left open say nothing at all. Then the balances do as well, and need not be solved.
         """
-        if not (self.motion_in_parts and self._support_rank.is_supported):
+        are_solved = not (self.motion_in_parts and self._support_rank.is_supported)
+        if are_solved and not self.undetermined:
             return {
                 f"reaction {line.name}": (
-                    self.least[line.name],
+                    self._solved.values[line.name],
                     units.ENERGY if line.restraint.is_couple else units.FORCE,
                 )
                 for line in self.lines

@@ -7,8 +7,9 @@ undetermined (a body on redundant supports) remain as symbols.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from polhode.algebra import (
     ONE,
@@ -33,8 +34,6 @@ from polhode.derive._form import IN_PARTS, Form
 from polhode.derive._motion import Kinematics
 from polhode.model import Body, Frame
 
-Solve = Callable[[Sequence[Row], Sequence[Expr]], Elimination]
-
 
 @dataclass(frozen=True)
 class Reactions:
@@ -44,15 +43,22 @@ class Reactions:
         values: each component in terms of coordinates, speeds and accelerations; components that
             are not determined appear in the others as symbols with their names.
         undetermined: components that Newton's laws leave open, or that depend on such components.
-        least: the values with the smallest sum of squares of all forces and, if couples are still
-            undetermined, with the smallest sum of squares of all couples.
         unexplained: remainders of balances that no component can supply.
+        general: all components in terms of those that are open, where any is.
     """
 
     values: dict[str, Expr]
     undetermined: tuple[str, ...]
-    least: dict[str, Expr]
     unexplained: tuple[Expr, ...]
+    general: _General | None = field(default=None, repr=False)
+
+    @cached_property
+    def least(self) -> dict[str, Expr]:
+        """The values with the smallest sum of squares of all forces.
+
+        If couples are still undetermined then, with the smallest sum of squares of all couples.
+        """
+        return self.values if self.general is None else self.general.least()
 
     @property
     def singular(self) -> int:
@@ -305,10 +311,7 @@ def _solved(
         shared: combinations of reactions that vanish by a law of sharing.
     """
 
-    def solve(table: Sequence[Row], values: Sequence[Expr]) -> Elimination:
-        ranks = [0] * (len(table[0]) if table else len(columns))
-        return form.eliminate(table, values, ranks, motion.accelerations)
-
+    solve = _Solver(form, motion.accelerations)
     rows, right = [b.row for b in balances], [b.required for b in balances]
     outcome = solve([*rows, *shared], [*right, *(ZERO for _ in shared)])
     leftover = tuple(outcome.leftover[i] for i in outcome.contradictory)
@@ -320,16 +323,28 @@ def _solved(
     if not outcome.free:
         values = {names[j]: constant for j, (_, constant) in outcome.solved.items()}
         ordered = {name: values[name] for name in names}
-        return Reactions(ordered, (), ordered, leftover)
-    general = _in_terms_of_free(outcome)
+        return Reactions(ordered, (), leftover)
+    general = _General(columns, _in_terms_of_free(outcome), solve)
     symbols = tuple(Expr.generator(Symbol(names[j])) for j in outcome.free)
-    least = _least_squares(general, columns, solve)
-    return Reactions(
-        {name: _value(general[j], symbols) for j, name in enumerate(names)},
-        tuple(name for j, name in enumerate(names) if any(general[j][0])),
-        {name: _value(general[j], least) for j, name in enumerate(names)},
-        leftover,
-    )
+    undetermined = tuple(name for j, name in enumerate(names) if any(general.values[j][0]))
+    return Reactions(general.at(symbols), undetermined, leftover, general)
+
+
+@dataclass(frozen=True)
+class _Solver:
+    """Solves linear equations for reactions.
+
+    Attributes:
+        form: of the solutions.
+        accelerations: those of the motion, which the equations may contain.
+    """
+
+    form: Form
+    accelerations: tuple[Symbol, ...]
+
+    def __call__(self, table: Sequence[Row], values: Sequence[Expr]) -> Elimination:
+        ranks = [0] * (len(table[0]) if table else 0)
+        return self.form.eliminate(table, values, ranks, self.accelerations)
 
 
 def _agree(leftover: Sequence[Expr], motion: Kinematics, form: Form) -> bool:
@@ -391,6 +406,33 @@ def _missing_support(motion: Kinematics, unbalanced: list[Body]) -> ConstraintEr
 Linear = tuple[Row, Expr]
 
 
+@dataclass(frozen=True)
+class _General:
+    """The reactions in terms of those that are open.
+
+    Attributes:
+        columns: the reactions.
+        values: of each, by its place.
+        solve: for further equations.
+    """
+
+    columns: tuple[ReactionColumn, ...]
+    values: Mapping[int, Linear]
+    solve: _Solver
+
+    def at(self, free: Row) -> dict[str, Expr]:
+        """The reactions by name, from the values of those that are open."""
+        return {c.name: _value(self.values[j], free) for j, c in enumerate(self.columns)}
+
+    def least(self) -> dict[str, Expr]:
+        """Those with the least squares."""
+        try:
+            return self.at(_least_squares(self.values, self.columns, self.solve))
+        except OutgrownError:
+            in_parts = replace(self.solve, form=IN_PARTS)
+            return self.at(_least_squares(self.values, self.columns, in_parts))
+
+
 def _value(linear: Linear, values: Row) -> Expr:
     coefficients, constant = linear
     return dot(coefficients, values) + constant
@@ -407,7 +449,7 @@ def _unit(place: int, size: int) -> Row:
 
 
 def _least_squares(
-    general: Mapping[int, Linear], columns: tuple[ReactionColumn, ...], solve: Solve
+    general: Mapping[int, Linear], columns: tuple[ReactionColumn, ...], solve: _Solver
 ) -> Row:
     """Undetermined components that minimise the sum of squares of all forces, then of all couples.
 

@@ -115,15 +115,19 @@ class Transitions:
         starting = frozenset(before.onset) if before.shared.time == shared.time else frozenset()
         slipping = guard.places if isinstance(guard, GivesWay) else frozenset({i})
         lifted = separated | self._hybrid.closing_with(i) if i >= 0 else separated
+        # Where the last slips end, their directions and with them the forces are only rounding.
+        kind, sliding = guard.kind, {k for k, phase in enumerate(before.phases) if phase.slides}
+        if kind == "lifts off" and sliding and sliding <= leaving.still:
+            kind = "sticks"
         known = {
             "lifts off": ContactStatus(lifted, sticking - lifted, beyond=off_edge),
             "crosses the edge": ContactStatus(separated, sticking - {i}, beyond=off_edge ^ {i}),
             "slips": ContactStatus(separated, sticking - slipping, starting | slipping, off_edge),
             "sticks": ContactStatus(separated, sticking | leaving.still | {i}, beyond=off_edge),
         }
-        entry = select_mode(self._hybrid, shared, known[guard.kind])
-        turned = guard.kind == "sticks" and entry.phases[i].slides
-        return "turns round" if turned else guard.kind, entry, None
+        entry = select_mode(self._hybrid, shared, known[kind])
+        turned = kind == "sticks" and entry.phases[i].slides
+        return "turns round" if turned else kind, entry, None
 
     def _lands_too(self, point: ContactKinematics, time: Any) -> bool:
         """Whether an open contact lands at this very instant, to within rounding."""

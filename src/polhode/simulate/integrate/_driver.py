@@ -327,7 +327,7 @@ def _summed(
     with np.errstate(all="ignore"):
         here, there = (flow.values(stage.rates, s, parameters, steps) for s in (states, moved))
         noise = np.max(np.abs(there - here), axis=1, initial=0.0)
-        found = integral(rates, steps, np.where(np.isfinite(noise), noise, 0.0))
+        found = integral(rates, steps, np.where(np.isfinite(noise), noise, 0.0), start)
     return lambda times: start[:, None] + found.at(times)
 
 

@@ -29,8 +29,9 @@ _CONVERGED = 1e-14  # last two coefficients of a converged series, over the larg
 # whose own terms cancel); a smooth function reduces them to far less than a quarter.
 _NOISE = 1e-8
 _FALLING = 0.25
-# The last coefficients of noise: those of its values, times (2k + 1)/2 over the root of their number.
+# The last coefficients of noise: its values, times (2k + 1)/2 over the root of their count.
 _NOISY_TAIL = 4.0
+_SLOPES = 2.0 * _ORDERS  # of a Legendre series over its whole piece, for coefficients of one sign
 _SHORTEST = 1e-11  # length of a piece over the time: shorter ones have no digits left
 _ONLY_NOISE = 1e-3  # uncertainty over the largest value: above, a function is only rounding
 _MOST = 100_000  # new pieces at a time; nothing smooth needs more
@@ -60,7 +61,10 @@ class Quadrature:
 
 
 def integral(
-    function: Callable[[Array], Array], knots: Array, noise: Array | None = None
+    function: Callable[[Array], Array],
+    knots: Array,
+    noise: Array | None = None,
+    start: Array | None = None,
 ) -> Quadrature:
     """Integrate smooth functions of time to rounding.
 
@@ -68,8 +72,12 @@ def integral(
         function: values at some times, shape (functions, times).
         knots: ends of the first pieces, on which 16 nodes may be enough, s.
         noise: uncertainty of the values of each function, shape (functions,).
+        start: what the integrals will be added to; below its rounding nothing is resolved.
     """
-    left, right, coefficients = resolved(function, knots, noise)
+    negligible = None
+    if start is not None:
+        negligible = np.spacing(np.abs(start)) / (_NOISY_TAIL * (knots[-1] - knots[0]))
+    left, right, coefficients = resolved(function, knots, noise, negligible)
     halves = (right - left) / 2
     inside = (coefficients @ _ANTIDERIVATIVES) * halves[None, :, None]
     pieces = 2 * halves * coefficients[:, :, 0]
@@ -83,12 +91,19 @@ def integral(
 
 
 def resolved(
-    function: Callable[[Array], Array], knots: Array, noise: Array | None = None
+    function: Callable[[Array], Array],
+    knots: Array,
+    noise: Array | None = None,
+    negligible: Array | None = None,
 ) -> tuple[Array, Array, Array]:
     """Pieces on which the Legendre series have converged, in order, and their coefficients.
 
     Functions that are only noise, such as the sum of forces on a body at rest, are not tested:
     their series never converge.
+
+    Args:
+        function, knots, noise: as for `integral`.
+        negligible: size of the values of each function that does not matter.
 
     Returns:
         Left and right ends, shape (pieces,), and coefficients, shape (functions, pieces, order).
@@ -106,10 +121,14 @@ def resolved(
         scale = np.maximum(scale, largest)
         sizes = np.where(scale > 0, scale, 1.0)
         tails = np.abs(coefficients[:, :, -2:]) / sizes
+        # Times are rounded, and values with them by their slopes.
+        uncertain = np.abs(coefficients) @ _SLOPES * np.spacing(right) / (right - left)
         if noise is not None:
-            uncertain = noise / sizes[:, 0, 0]
-            tails[uncertain > _ONLY_NOISE] = 0.0
-            tails[tails <= _NOISY_TAIL * uncertain[:, None, None]] = 0.0
+            tails[noise > _ONLY_NOISE * sizes[:, 0, 0]] = 0.0
+            uncertain = np.maximum(uncertain, noise[:, None])
+        if negligible is not None:
+            uncertain = np.maximum(uncertain, negligible[:, None])
+        tails[tails <= _NOISY_TAIL * uncertain[:, :, None] / sizes] = 0.0
         tail = np.max(tails, axis=(0, 2), initial=0.0)
         rough = (tail > _CONVERGED) & ((tail > _NOISE) | (tail < _FALLING * before))
         rough &= (right - left > _SHORTEST * np.abs(right)) & (np.sum(rough) < _MOST)
