@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -16,8 +17,11 @@ import numpy as np
 from polhode.algebra import ONE, Symbol
 from polhode.base import PolhodeError
 from polhode.model import Phase
+from polhode.simulate._absolute_values import Instant
 from polhode.simulate._dynamics import Dynamics
+from polhode.simulate._gimbal_lock import NumericAttitude, passes_straight
 from polhode.simulate._segment import TrajectoryPiece, state_at
+from polhode.simulate._start import Start, check_start
 from polhode.simulate._turned_piece import TurnedPiece, turned_piece
 from polhode.simulate.contact._contact_kinematics import State
 from polhode.simulate.contact._description_changes import DescriptionChange
@@ -40,25 +44,92 @@ class AnglesChange(DescriptionChange):
         return on_regular_speeds(hybrid, phases, _in_angles(hybrid, self.chart, shared))
 
 
-def angles_change(hybrid: HybridSystem, state: Mapping[Symbol, Any]) -> AnglesChange | None:
-    """The change to angles that are regular in a state of any mode; None where these are."""
-    chart = _chart_at(hybrid, state)
+def passing_straight(hybrid: HybridSystem, mode: CompiledMode, here: Instant) -> frozenset[int]:
+    """The attitudes that are near a pole and go straight through it: their angles stay regular.
+
+    So do those that rest beside it.
+    """
+    values = partial(here.values, mode.dynamics)
+    return frozenset(
+        i
+        for i, attitude in enumerate(hybrid.attitudes)
+        if i not in hybrid.chart
+        and attitude.geometry.is_near_pole(here.state[attitude.angles[1]], attitude.near)
+        and passes_straight(attitude, here.state, values)
+    )
+
+
+def angles_change(
+    hybrid: HybridSystem, state: Mapping[Symbol, Any], straight: frozenset[int]
+) -> AnglesChange | None:
+    """The change to angles that are regular in a state of any mode; None where these are.
+
+    Args:
+        hybrid: the modes.
+        state: of one of them.
+        straight: attitudes that pass straight through the pole.
+    """
+    chart = _chart_at(hybrid, state, straight)
     return None if chart == hybrid.chart else AnglesChange(None, "other angles", ONE, chart)
 
 
 def in_regular_angles(hybrid: HybridSystem, shared: State) -> State:
-    """A shared state in angles that are regular there, with which all modes then go on."""
-    chart = _chart_at(hybrid, _coordinates(hybrid, shared))
+    """A shared state in angles that are regular there, with which all modes then go on.
+
+    Beside the pole all speeds have to be regular for contacts to be opened and closed, whichever
+    way it is passed; until then, attitudes that pass it straight remain as they are.
+    """
+    separated = hybrid.separated
+    own = np.concatenate([shared.coordinates, shared.speeds])
+    here = dict(zip(separated.dynamics.without_auxiliary.states, own, strict=True))
+    straight = frozenset[int]()
+    if hybrid.attitudes:
+        found = passing_straight(hybrid, separated, separated.instant(here, shared.time))
+        straight = frozenset(i for i in found if not _is_beside_pole(hybrid.attitudes[i], here))
+    chart = _chart_at(hybrid, here, straight)
     return shared if chart == hybrid.chart else _in_angles(hybrid, chart, shared)
 
 
+def _is_beside_pole(attitude: NumericAttitude, state: Mapping[Symbol, Any]) -> bool:
+    """Whether equations in the declared angles lose so many digits that they are doubtful."""
+    return attitude.geometry.is_near_pole(state[attitude.angles[1]], attitude.doubtful)
+
+
+def is_regular_in_other_angles(
+    hybrid: HybridSystem, phases: tuple[Phase, ...], state: Mapping[Symbol, float]
+) -> bool:
+    """Whether a motion starts near gimbal lock, in a state from which other angles can go on.
+
+    Args:
+        hybrid: the modes, in the declared angles.
+        phases: of the one that it starts in.
+        state: of it.
+
+    Raises:
+        ConstraintError, NumericError: where it cannot start in these either.
+    """
+    chart = _chart_at(hybrid, state, frozenset())
+    if chart == hybrid.chart:
+        return False
+    declared, turned = (hybrid.dynamics_in(c, phases).without_auxiliary for c in ((), chart))
+    angles = hybrid.angles_between(declared, turned, chart)
+    own, other = (
+        {s: float(hybrid.constants[s]) for s in one.parameters} for one in (declared, turned)
+    )
+    there = angles.state(state, np.array(list(own.values())), 0.0)
+    check_start(turned, Start(there, {}), other)
+    return True
+
+
 def has_left_angles(
-    hybrid: HybridSystem, core: Sequence[Symbol]
+    hybrid: HybridSystem, core: Sequence[Symbol], straight: frozenset[int]
 ) -> Callable[[float, Sequence[float]], bool] | None:
     """Whether angles have to be counted otherwise at the end of a step; None if they never have.
 
     Args:
+        hybrid: the modes.
         core: the states that are integrated.
+        straight: attitudes that pass straight through the pole.
     """
     if not hybrid.attitudes:
         return None
@@ -66,7 +137,7 @@ def has_left_angles(
     places = [(q, i) for i, q in enumerate(core) if q in angles]
 
     def over(time: float, state: Sequence[float]) -> bool:
-        return _chart_at(hybrid, {q: state[i] for q, i in places}) != hybrid.chart
+        return _chart_at(hybrid, {q: state[i] for q, i in places}, straight) != hybrid.chart
 
     return over
 
@@ -86,17 +157,18 @@ def as_declared(hybrid: HybridSystem, mode: CompiledMode, piece: TrajectoryPiece
 # -- which angles ----------------------------------------------------------------------------------
 
 
-def _chart_at(hybrid: HybridSystem, known: Mapping[Symbol, Any]) -> Chart:
+def _chart_at(hybrid: HybridSystem, known: Mapping[Symbol, Any], straight: frozenset[int]) -> Chart:
     """The attitudes whose angles are to be counted otherwise, from the angles of a state.
 
-    Those whose angles are not known stay as they are.
+    Those whose angles are not known stay as they are, and so do those that pass straight.
     """
     chart = []
     for i, attitude in enumerate(hybrid.attitudes):
         (first, second, _), geometry = attitude.turned, attitude.geometry
         if i not in hybrid.chart:
             angle = attitude.angles[1]
-            near = angle in known and geometry.is_near_pole(known[angle], attitude.near)
+            near = i not in straight and angle in known
+            near = near and geometry.is_near_pole(known[angle], attitude.near)
         elif known.keys() >= {first, second}:
             declared, own = geometry.sines(known[first], known[second])
             near = declared < attitude.far and own > attitude.near
@@ -162,8 +234,3 @@ def _in_angles(hybrid: HybridSystem, chart: Chart, shared: State) -> State:
 def _separated(hybrid: HybridSystem, chart: Chart) -> Dynamics:
     """The mode in which nothing touches, in some angles, on coordinates and speeds alone."""
     return hybrid.dynamics_in(chart, hybrid.separated.mode.phases).without_auxiliary
-
-
-def _coordinates(hybrid: HybridSystem, shared: State) -> dict[Symbol, Any]:
-    known = hybrid.separated.mode.equations.coordinates
-    return dict(zip(known, shared.coordinates, strict=True))

@@ -33,6 +33,7 @@ from polhode.simulate.contact._attitude_charts import (
     angles_change,
     as_declared,
     has_left_angles,
+    passing_straight,
 )
 from polhode.simulate.contact._auxiliary_states import (
     edge_distance_symbol,
@@ -278,7 +279,7 @@ class DoublePieces(ModePieces):
         now = span[0]
         rest = before.solution.rest(now) if before else self._mode.rest(state, now)
         scale = self.speed_scale(state, now) if self._entry.slips else 0.0
-        criteria = self._criteria(scale or 1.0)
+        criteria = self._criteria(scale or 1.0, self._straight(state, now))
         return _piece_end(*self._up_to(rest, span, criteria))
 
     def _up_to(
@@ -298,7 +299,8 @@ class DoublePieces(ModePieces):
             raise
         if guard is None:
             there = state_at(piece, piece.end)
-            guard = angles_change(self._hybrid, there)
+            straight = self._straight(there, piece.end)
+            guard = angles_change(self._hybrid, there, straight)
             if guard is None and speeds is not None:
                 guard = speed_change(self._hybrid, self._entry.phases, there, piece.end)
         again = shorter_span(solution.steps, piece.end) if may_be_overshot(guard) else None
@@ -307,13 +309,21 @@ class DoublePieces(ModePieces):
         refuse_vanishing(self._mode.dynamics, piece)
         return piece, guard
 
-    def _criteria(self, scale: float) -> StopCriteria:
-        """What stops an integration: slips that end, too many steps, or a guard to check."""
+    def _straight(self, state: StateValues, now: float) -> frozenset[int]:
+        return passing_straight(self._hybrid, self._mode, self._mode.instant(state, now))
+
+    def _criteria(self, scale: float, straight: frozenset[int]) -> StopCriteria:
+        """What stops an integration: slips that end, too many steps, or a guard to check.
+
+        Args:
+            scale: of the terms that cancel in slips, m/s.
+            straight: attitudes that pass straight through gimbal lock.
+        """
         mode, near_flat = self._mode, self._near_flat
         core, checks = mode.flow.core.symbols, list[Callable[[float, Sequence[float]], bool]]()
         if self._watch and (check := self._watch.overshoot(core, mode.parameters)):
             checks.append(check)
-        if check := has_left_angles(self._hybrid, core):
+        if check := has_left_angles(self._hybrid, core, straight):
             checks.append(check)
         if not (mode.mode.guards or mode.side_guards or checks or self._watch):
             return StopCriteria(tally=self._tally)

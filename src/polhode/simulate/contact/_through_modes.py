@@ -19,10 +19,10 @@ from polhode.model import (
 )
 from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._names import published
-from polhode.simulate._start import read_start, unchecked_start
+from polhode.simulate._start import check_start, unchecked_start
 from polhode.simulate._task import Guarded, InitialState, MotionResult, Task, timed
 from polhode.simulate._values import idle_parameters, read_parameters
-from polhode.simulate.contact._attitude_charts import in_regular_angles
+from polhode.simulate.contact._attitude_charts import in_regular_angles, is_regular_in_other_angles
 from polhode.simulate.contact._contact_kinematics import NO_NORMAL_SPEED, State
 from polhode.simulate.contact._description_changes import choose_at_start
 from polhode.simulate.contact._hybrid_integrator import HybridIntegrator
@@ -140,9 +140,9 @@ class ThroughModes:
             pieces = double_pieces(hybrid, task.near_flat, progress)
             integrator = HybridIntegrator(hybrid, pieces, task.until)
             shared, initial, separated = _begin(hybrid, task)
+            assumed = {**initial.start.assumed, **_assumed_to_roll(hybrid, shared, task)}
             first = initial_mode(hybrid, shared, separated)
             speeds = hybrid.speeds_in(())
-            assumed = {**initial.start.assumed, **_assumed_to_roll(hybrid, shared, task)}
             hybrid.mode(first.phases).stepper  # noqa: B018
         with timed(task, "integrate"):
             solution = integrator.integrate(first, task.end)
@@ -238,6 +238,8 @@ def _read(
     mode = hybrid.mode(phases)
     plain = mode.dynamics.without_auxiliary
     numbers = dict(zip(plain.parameters, mode.parameters.tolist(), strict=True))
-    start = read_start(plain, task.start, numbers)
+    start = unchecked_start(plain, task.start, numbers)
     state = dict(zip(plain.states, (float(x) for x in start.state), strict=True))
+    if not is_regular_in_other_angles(hybrid, phases, state):
+        check_start(plain, start, numbers)
     return mode.embedding(0.0, state, 0.0), InitialState(plain, start)
