@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -48,6 +48,15 @@ class TrajectoryPiece:
     def angles_replaced(self) -> frozenset[Symbol]:
         """The declared angles in place of which others were integrated, near gimbal lock."""
         return frozenset()
+
+    @property
+    def replaced_at_start(self) -> Mapping[Symbol, float]:
+        """These angles where it begins, followed over turns, and their rates if they matter."""
+        return {}
+
+    def as_integrated(self, dynamics: Dynamics) -> tuple[Dynamics, TrajectoryPiece]:
+        """The equations that were integrated, and this piece in their states."""
+        return dynamics, self
 
     def values(self, dynamics: Dynamics, expressions: Sequence[Expr], times: Array) -> Array:
         """Values of expressions in symbols of the equations, shape (expressions, times)."""
@@ -98,6 +107,15 @@ class Segment:
         """The same in doubles."""
         parts = tuple(part.rounded() for part in self.parts)
         return replace(self, begin=parts[0].begin, end=parts[-1].end, parts=parts)
+
+    @property
+    def as_integrated(self) -> Segment:
+        """The same in the angles in which all of it was integrated, if it was in one choice."""
+        described = [part.as_integrated(self.dynamics) for part in self.parts]
+        dynamics = described[0][0]
+        if any(own is not dynamics for own, _ in described):
+            return self
+        return replace(self, dynamics=dynamics, parts=tuple(part for _, part in described))
 
     def state(self, time: float) -> dict[str, float]:
         """Coordinates, speeds and rates at an instant within it, ends included, by name."""

@@ -36,15 +36,16 @@ def turned_at_dead_point(segments: Sequence[Segment]) -> NumericError | None:
     A motion may pass such a configuration smoothly, as a bead on a ring through its centre does.
     """
     for segment in segments:
-        equations = segment.dynamics.equations
+        own = segment.as_integrated
+        equations = own.dynamics.equations
         if not isinstance(equations, Equations) or not may_become_singular(equations):
             continue
-        rounded = segment.rounded()
-        constraints = _Constraints(rounded, equations)
+        constraints = _Constraints(own.rounded(), equations)
         for time in constraints.met():
             if constraints.turning(time) > _TURNED:
-                state, usual = rounded.state(time), len(equations.speeds)
-                places = {q: state[q.published] for q in equations.coordinates}
+                state, usual = segment.rounded().state(time), len(equations.speeds)
+                coordinates = segment.dynamics.equations.coordinates
+                places = {q: state[q.published] for q in coordinates}
                 return dead_point_error(
                     f"near t = {time:.4g} s", places, usual + 1, usual, "constraints"
                 )

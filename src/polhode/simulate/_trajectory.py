@@ -364,7 +364,7 @@ def archive_of(run: Trajectory) -> Archive:
         for part in segment.parts
         if part.begin < part.end
     ]
-    solutions = [part.solution for segment in run.segments for part in segment.parts]
+    solutions = [part.as_integrated(segment.dynamics)[1].solution for _, segment, part in parts]
     sides = {i: tuple(s.dynamics.sides.values()) for i, s in enumerate(run.segments)}
     details = Details(
         duration=run.duration,
@@ -378,6 +378,9 @@ def archive_of(run: Trajectory) -> Archive:
         invariants=run.invariants,
         sides={i: s for i, s in sides.items() if s},
         independent={i: s for i, s in _other_speeds(run).items() if s},
+        replaced={
+            k: angles for k, (*_, part) in enumerate(parts) if (angles := part.replaced_at_start)
+        },
         doubt=run.doubt,
     )
     return Archive(
@@ -401,15 +404,16 @@ def _other_speeds(run: Trajectory) -> dict[int, tuple[Symbol, ...]]:
 
 
 def _chebyshev(number: int, segment: Segment, part: TrajectoryPiece) -> ChebyshevPiece:
-    solution = part.solution
+    dynamics, own = part.as_integrated(segment.dynamics)
+    solution = own.solution
     steps = np.append(solution.steps[solution.steps < part.end], part.end)
     knots, series = series_of(solution.at, steps)
-    names = (symbol.published for symbol in segment.dynamics.parameters)
+    names = (symbol.published for symbol in dynamics.parameters)
     return ChebyshevPiece(
         segment=number,
         mode=segment.mode,
         states=tuple(map(label, solution.symbols)),
-        constants=dict(zip(names, part.constants.tolist(), strict=True)),
+        constants=dict(zip(names, own.constants.tolist(), strict=True)),
         steps=steps,
         knots=knots,
         series=series,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
@@ -26,14 +26,23 @@ class TurnedPiece(TrajectoryPiece):
     Attributes:
         angles: the declared ones and the turned ones.
         turned: the same piece in the latter.
+        before: the declared angles where it begins, and their rates where these are known.
     """
 
     angles: OtherAngles = field(repr=False)
     turned: TrajectoryPiece = field(repr=False)
+    before: States = field(repr=False)
 
     @property
     def angles_replaced(self) -> frozenset[Symbol]:
         return frozenset(q for attitude in self.angles.chosen for q in attitude.angles)
+
+    @property
+    def replaced_at_start(self) -> States:
+        return self.before
+
+    def as_integrated(self, dynamics: Dynamics) -> tuple[Dynamics, TrajectoryPiece]:
+        return self.angles.turned, replace(self.turned, end=self.end)
 
     def values(self, dynamics: Dynamics, expressions: Sequence[Expr], times: Array) -> Array:
         known = self.angles.counterparts
@@ -61,12 +70,14 @@ def turned_piece(
     Args:
         angles: the declared ones and the turned ones.
         turned: the piece in these.
-        before: the declared state where it begins.
+        before: the declared state where it begins, or the angles of it that are replaced.
         constants: of the declared equations.
     """
+    own = {q for attitude in angles.chosen for q in attitude.angles}
     states = _DeclaredStates(angles, turned, before)
+    kept = {s: float(before[s]) for s in before if s.base() in own}
     solution = SegmentSolution(states.symbols, {}, states.steps, turned.solution.stop, None, states)
-    return TurnedPiece(turned.begin, turned.end, solution, constants, angles, turned)
+    return TurnedPiece(turned.begin, turned.end, solution, constants, angles, turned, kept)
 
 
 _SAMPLES = 5  # times within a step at which the rates of its angles are read

@@ -146,6 +146,32 @@ def test_a_box_comes_to_rest_on_the_face_of_gimbal_lock(heading, tilt):
     assert one.final["z"] == pytest.approx(SIDES[0] / 2, abs=1e-12)
 
 
+def test_a_motion_through_gimbal_lock_is_loaded_as_it_was_saved(tmp_path):
+    angles = 0.3, -np.pi / 2 + 0.12, 0.02
+    start = dict(zip(("psi", "theta", "phi"), angles, strict=True))
+    start |= rates_of(angles, np.array([0.4, -0.2, 0.5])) | {"z": 0.16, "v_x": 0.3}
+    numbers = {"m": 1.3, "g": 9.81, "mu": 0.4} | dict(zip("abc", SIDES, strict=True))
+    run = ph.simulate(box(0), numbers, start, 0.5, samples=26)
+    run.save(tmp_path / "box.polhode")
+    again = ph.load(tmp_path / "box.polhode", seconds=None)
+    for name in (*run.states, *run.reactions, "energy", "work"):
+        assert again[name] == pytest.approx(run[name], rel=1e-10, abs=1e-10, nan_ok=True)
+
+
+def test_a_free_body_through_gimbal_lock_is_loaded_as_it_was_saved(tmp_path):
+    m, *moments = ph.symbols("m I_1 I_2 I_3", positive=True)
+    axes = ph.Frame("N")
+    for angle, axis in (("phi", "z"), ("theta", "x"), ("psi", "z")):
+        axes = axes.rotated(ph.coordinate(angle), axis)
+    system = ph.System(ph.Body("body", mass=m, inertia=moments, axes=axes))
+    start = {"theta": 0.5, "theta_dot": -1.0, "phi_dot": 1e-7, "psi_dot": 0.3}
+    run = ph.simulate(system, {"m": 1, "I_1": 1, "I_2": 2, "I_3": 2.5}, start, 1.5, samples=40)
+    run.save(tmp_path / "body.polhode")
+    again = ph.load(tmp_path / "body.polhode", seconds=None)
+    for name in (*run.states, "energy"):
+        assert again[name] == pytest.approx(run[name], rel=1e-9, abs=1e-12)
+
+
 def rates_of(angles, spin):
     """Rates of angles about z, y, x that make up an angular velocity in space."""
     psi, theta, _ = angles

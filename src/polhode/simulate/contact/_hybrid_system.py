@@ -412,8 +412,23 @@ class CompiledMode(IntegratedEquations):
 
         A function of the state, the time, and the directions and speeds of slip.
         """
-        forces = self.function(contact_forces_of(self.mode), self.directions)
-        return lambda state, time, directions: forces(state, time, directions).reshape(-1, 3)
+        count = 3 * len(self.mode.touches)
+        found = self._at_contacts
+        return lambda state, time, directions: found(state, time, directions)[:count].reshape(-1, 3)
+
+    @cached_property
+    def _at_contacts(self) -> Function:
+        """The forces at all contacts, their normal accelerations and the rates of their slips.
+
+        They have most of their terms in common, and so are one program. Forces of which some are
+        open are left out.
+        """
+        return self.function(self._expressions_at_contacts, self.directions)
+
+    @cached_property
+    def _expressions_at_contacts(self) -> tuple[Expr, ...]:
+        forces = contact_forces_of(self.mode) if not self.mode.undetermined else []
+        return (*forces, *closing_rates_of(self.mode), *self.slip_changes)
 
     @cached_property
     def open_forces(self) -> OpenForces | None:
@@ -435,7 +450,14 @@ class CompiledMode(IntegratedEquations):
 
         A function of the state, the time, and the directions and speeds of slip.
         """
-        return self.function(closing_rates_of(self.mode), self.directions)
+        found, count = self._at_contacts, len(self.mode.touches)
+
+        def closing_rates(state: Array, time: float, directions: Sequence[float]) -> Array:
+            values = found(state, time, directions)
+            rates: Array = values[len(values) - 3 * count : len(values) - 2 * count]
+            return rates
+
+        return closing_rates
 
     @cached_property
     def room_rates(self) -> Function:
@@ -476,18 +498,24 @@ class CompiledMode(IntegratedEquations):
         """`slip_rates` for arrays of directions, shape (contacts, 2, directions)."""
         states = tuple(s for s in self.dynamics.states if s not in self.dynamics.auxiliary)
         known = (*states, *self.directions, *self.dynamics.parameters, CLOCK)
-        function = self.dynamics.function(self.slip_changes, known)
+        function = self.dynamics.function(self._expressions_at_contacts, known)
         with np.errstate(all="ignore"):
             found = function(*state[: len(states)], *directions, *self.parameters, time)
         count = max(np.size(direction) for direction in directions)
-        rates: Array = rows(found, count)
+        slips = found[len(found) - len(self.slip_changes) :]
+        rates: Array = rows(slips, count)
         return rates.reshape(-1, 2, count)
 
     @cached_property
     def slip_rates(self) -> Function:
         """Rate of the slip velocity of every contact, m/s², shape (contacts, 2)."""
-        rates = self.function(self.slip_changes, self.directions)
-        return lambda state, time, directions: rates(state, time, directions).reshape(-1, 2)
+        found, count = self._at_contacts, len(self.slip_changes)
+
+        def slip_rates(state: Array, time: float, directions: Sequence[float]) -> Array:
+            values = found(state, time, directions)
+            return values[len(values) - count :].reshape(-1, 2)
+
+        return slip_rates
 
 
 def _is_singular(mass: Array) -> bool:

@@ -42,6 +42,8 @@ class Details:
         sides: signs of the arguments of absolute values, in order, by number of the segment.
         independent: the independent speeds, by number of the segment, where they are not those
             that the declaration leads to.
+        replaced: by number of the stretch, where angles are counted from turned axes: the declared
+            ones where it begins, and their rates where these are known.
         doubt: as of the trajectory.
     """
 
@@ -56,6 +58,7 @@ class Details:
     invariants: Mapping[str, Expr]
     sides: Mapping[int, Sequence[int]]
     independent: Mapping[int, Sequence[Symbol]]
+    replaced: Mapping[int, Mapping[Symbol, float]]
     doubt: str
 
     def as_json(self) -> dict[str, Any]:
@@ -73,6 +76,10 @@ class Details:
             "sides": {str(number): list(sides) for number, sides in self.sides.items()},
             "independent": {
                 str(number): list(map(label, speeds)) for number, speeds in self.independent.items()
+            },
+            "replaced": {
+                str(k): {label(s): x for s, x in angles.items()}
+                for k, angles in self.replaced.items()
             },
             "doubt": self.doubt,
         }
@@ -106,6 +113,10 @@ def read_details(given: Mapping[str, Any]) -> Details:
         independent={
             int(i): tuple(symbol(text(s)) for s in speeds)
             for i, speeds in mapping(given.get("independent", {})).items()
+        },
+        replaced={
+            int(k): {symbol(text(s)): x for s, x in numbers(angles).items()}
+            for k, angles in mapping(given.get("replaced", {})).items()
         },
         doubt=text(given["doubt"]),
     )

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
 from itertools import groupby, pairwise
 from math import inf
 from pathlib import Path
@@ -10,16 +12,20 @@ from pathlib import Path
 import numpy as np
 
 from polhode.algebra import Symbol
-from polhode.base import NumericError, PolhodeError, StoreError, Tell, within
+from polhode.base import ByIdentity, NumericError, PolhodeError, StoreError, Tell, within
 from polhode.derive import automaton, derive, on_independent
-from polhode.model import System, read_declaration
+from polhode.model import Phase, System, read_declaration
 from polhode.simulate._absolute_values import sides_in_order
 from polhode.simulate._dynamics import WORK, Dynamics
 from polhode.simulate._event import placed
+from polhode.simulate._gimbal_lock import NumericAttitude, attitudes_of
+from polhode.simulate._other_angles import OtherAngles
 from polhode.simulate._segment import Segment, TrajectoryPiece
 from polhode.simulate._task import AS_DECLARED
 from polhode.simulate._trajectory import Trajectory
-from polhode.simulate.contact._hybrid_system import HybridSystem
+from polhode.simulate._turned_angles import TurnedEquations
+from polhode.simulate._turned_piece import turned_piece
+from polhode.simulate.contact._hybrid_system import Chart, HybridSystem
 from polhode.simulate.files._archive import Archive, ChebyshevPiece
 from polhode.simulate.files._details import (
     Details,
@@ -29,6 +35,7 @@ from polhode.simulate.files._details import (
 )
 from polhode.simulate.files._store import read_archive
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
+from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._driver import SegmentSolution
 from polhode.simulate.integrate._integrators import chosen
 from polhode.simulate.integrate._stop_criteria import Stop
@@ -126,31 +133,81 @@ def _inconsistent(what: str) -> StoreError:
     return StoreError(f"an inconsistent motion: {what[:200]}", expected="one that polhode saved")
 
 
+@dataclass(frozen=True)
+class _Mode:
+    """The equations of the stretches in one mode.
+
+    Attributes:
+        dynamics: in the declared angles.
+        attitudes: those whose angles can be counted otherwise.
+        turned: makes the same equations with the angles of some attitudes, given by their places,
+            counted from turned axes.
+    """
+
+    dynamics: Dynamics
+    attitudes: tuple[NumericAttitude, ...]
+    turned: Callable[[Chart], OtherAngles]
+
+    def in_place_of(self, angles: Iterable[Symbol]) -> OtherAngles:
+        """The equations in which others were integrated in place of some angles."""
+        own = {q.base() for q in angles}
+        chart = tuple(i for i, a in enumerate(self.attitudes) if own.issuperset(a.angles))
+        if not chart or own != {q for i in chart for q in self.attitudes[i].angles}:
+            raise ValueError("angles that are not those of an attitude")
+        return self.turned(chart)
+
+
+def _as_declared(dynamics: Dynamics) -> _Mode:
+    attitudes = attitudes_of(ByIdentity(dynamics.equations))
+
+    def turned(chart: Chart) -> OtherAngles:
+        return TurnedEquations(dynamics, (attitudes[i] for i in chart), chosen(), None).angles
+
+    return _Mode(dynamics, attitudes, cache(turned))
+
+
+def _contact_mode(hybrid: HybridSystem, phases: tuple[Phase, ...]) -> _Mode:
+    dynamics = hybrid.mode(phases).dynamics
+
+    def turned(chart: Chart) -> OtherAngles:
+        return hybrid.angles_between(dynamics, hybrid.dynamics_in(chart, phases), chart)
+
+    return _Mode(dynamics, hybrid.attitudes, turned)
+
+
 def _segments(archive: Archive, system: System, details: Details) -> Iterable[Segment]:
-    modes, known = automaton(system), dict[tuple[str, tuple[Symbol, ...]], Dynamics]()
+    modes, known = automaton(system), dict[tuple[str, tuple[Symbol, ...]], _Mode]()
     prescribed = details.prescribed
-    for _, group in groupby(archive.stretches, lambda stretch: stretch.segment):
+    for _, group in groupby(enumerate(archive.stretches), lambda item: item[1].segment):
         own = list(group)
-        if len({stretch.mode for stretch in own}) > 1:
+        if len({stretch.mode for _, stretch in own}) > 1:
             raise ValueError("a segment in several modes")
-        first = own[0]
+        _, first = own[0]
         speeds = tuple(details.independent.get(first.segment, ()))
         key = first.mode, speeds
         if key not in known:
             constants = {Symbol(name): value for name, value in first.constants.items()}
             if first.mode == AS_DECLARED:
                 equations = on_independent(system, speeds) if speeds else derive(modes.system)
-                dynamics = Dynamics(equations, prescribed, tuple(constants))
+                known[key] = _as_declared(Dynamics(equations, prescribed, tuple(constants)))
             else:
                 motion = PrescribedMotion(prescribed, {})
-                on = modes.on_speeds(speeds) if speeds else modes
-                hybrid = HybridSystem(on, motion, constants, chosen(), tolerance=None)
-                dynamics = hybrid.mode(modes.named(first.mode)).dynamics
-            known[key] = dynamics
+                hybrid = HybridSystem(modes, motion, constants, chosen(), tolerance=None)
+                hybrid.on_speeds(speeds)
+                known[key] = _contact_mode(hybrid, modes.named(first.mode))
+        mode = known[key]
         sides = details.sides.get(first.segment, ())
-        dynamics = known[key].on(sides_in_order(known[key], sides))
-        parts = tuple(_part(stretch, dynamics, details.turned) for stretch in own)
-        yield Segment(first.mode, parts[0].begin, parts[-1].end, dynamics, parts)
+        dynamics = mode.dynamics.on(sides_in_order(mode.dynamics, sides))
+        parts = list[TrajectoryPiece]()
+        for k, stretch in own:
+            before = details.replaced.get(k)
+            angles = mode.in_place_of(before) if before else None
+            integrated = dynamics if angles is None else angles.turned
+            part = _part(stretch, integrated, details.turned)
+            if angles is not None and before is not None:
+                part = turned_piece(angles, part, before, _constants(stretch, dynamics))
+            parts.append(part)
+        yield Segment(first.mode, parts[0].begin, parts[-1].end, dynamics, tuple(parts))
 
 
 def _part(
@@ -168,5 +225,9 @@ def _part(
         None,
         stretch.at,
     )
-    constants = np.array([stretch.constants[s.published] for s in dynamics.parameters])
+    constants = _constants(stretch, dynamics)
     return TrajectoryPiece(stretch.begin, stretch.end, solution, constants)
+
+
+def _constants(stretch: ChebyshevPiece, dynamics: Dynamics) -> Array:
+    return np.array([stretch.constants[s.published] for s in dynamics.parameters])
