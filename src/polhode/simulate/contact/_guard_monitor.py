@@ -108,6 +108,11 @@ class _DoubleOutput:
         return np.where(passed <= _INSTANT * np.spacing(self.begin), 0.0, passed)
 
 
+#: Guards at some places, of states that are changed by a share of themselves.
+_GuardValues = Callable[..., Array]
+_PROBED = 8 * float(np.finfo(float).eps)  # a few roundings
+
+
 def _time(output: DenseOutput, place: float) -> float:
     return float(output.times(np.array([place]))[0])
 
@@ -186,10 +191,16 @@ class GuardMonitor:
         if not (watched or self.mode.can_jam):
             return None
         values, sides = self._values(output, watched), self.mode.side_guards
+
+        def uncertainty(places: Array) -> Array:
+            with np.errstate(all="ignore"):
+                found = np.abs(values(places, _PROBED) - values(places))
+            return np.where(np.isfinite(found), found, 0.0)
+
         if sides:
             fall = first_end_of_side(values, output.knots, len(watched) - len(sides))
         else:
-            fall = first_fall(values, output.knots)
+            fall = first_fall(values, output.knots, uncertainty)
         if fall is None:
             return None
         if fall.guard == len(watched):  # the determinant, which follows the guards
@@ -229,7 +240,7 @@ class GuardMonitor:
     def _jammed(self, output: DenseOutput, place: float) -> NumericError:
         return painleve(", ".join(e.name for e in self.mode.sliding), _time(output, place))
 
-    def _values(self, output: DenseOutput, watched: list[Guard]) -> Callable[[Array], Array]:
+    def _values(self, output: DenseOutput, watched: list[Guard]) -> _GuardValues:
         """The guards as functions of the place, and where sliding may jam the determinant.
 
         Friction μ N makes the mass matrix depend on μ and the direction of slip. Forces and
@@ -245,9 +256,14 @@ class GuardMonitor:
         function = mode.dynamics.function(wanted, arguments, output.turned)
         speeds = self._initial_speeds(watched)
 
-        def evaluate(places: Array) -> Array:
+        def evaluate(places: Array, probed: float = 0.0) -> Array:
+            # one state up and the next one down, so that common factors do not cancel
+            states = output.at(places)
+            if probed:
+                up = np.where(np.arange(len(states)) % 2, -probed, probed)
+                states = states * (1.0 + up[:, None])
             with np.errstate(all="ignore"):
-                found = function(*output.at(places), *output.constants, output.times(places))
+                found = function(*states, *output.constants, output.times(places))
             values: Array = rows(found, len(places))
             for k, rise in speeds.items():
                 values[k] = rise.mean(values[k], output.passed(places))

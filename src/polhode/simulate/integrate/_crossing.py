@@ -38,17 +38,25 @@ class Crossing:
     guard: int
 
 
-def first_fall(guards: Callable[[Array], Array], knots: Array) -> Crossing | None:
+def first_fall(
+    guards: Callable[[Array], Array],
+    knots: Array,
+    uncertainty: Callable[[Array], Array] | None = None,
+) -> Crossing | None:
     """The first instant at which one of several functions falls below zero.
 
     Args:
         guards: values at some times, shape (functions, times); smooth between knots.
         knots: s.
+        uncertainty: of these values, where it may be more than rounding of their size, as it is
+            near singular positions.
     """
     if len(knots) < 2:
         return None
-    left, right, series = resolved(guards, knots)
+    left, right, series = resolved(guards, knots, uncertainty=uncertainty)
     noise = _noise(left, right, series)
+    if uncertainty is not None:
+        noise = np.maximum(noise, uncertainty((left + right) / 2))
     least = series[:, :, 0] - np.sum(np.abs(series[:, :, 1:]), axis=2)
     suspects = least < -noise
     found: list[Crossing] = []

@@ -95,6 +95,7 @@ def resolved(
     knots: Array,
     noise: Array | None = None,
     negligible: Array | None = None,
+    uncertainty: Callable[[Array], Array] | None = None,
 ) -> tuple[Array, Array, Array]:
     """Pieces on which the Legendre series have converged, in order, and their coefficients.
 
@@ -104,6 +105,7 @@ def resolved(
     Args:
         function, knots, noise: as for `integral`.
         negligible: size of the values of each function that does not matter.
+        uncertainty: of the values at some times, where it differs much from time to time.
 
     Returns:
         Left and right ends, shape (pieces,), and coefficients, shape (functions, pieces, order).
@@ -128,6 +130,8 @@ def resolved(
             uncertain = np.maximum(uncertain, noise[:, None])
         if negligible is not None:
             uncertain = np.maximum(uncertain, negligible[:, None])
+        if uncertainty is not None:
+            uncertain = np.maximum(uncertain, uncertainty((left + right) / 2))
         tails[tails <= _NOISY_TAIL * uncertain[:, :, None] / sizes] = 0.0
         tail = np.max(tails, axis=(0, 2), initial=0.0)
         rough = (tail > _CONVERGED) & ((tail > _NOISE) | (tail < _FALLING * before))
