@@ -31,3 +31,19 @@ def test_a_dip_that_is_deeper_is_a_fall():
 
     assert first_fall(fallen, np.array([begin, 5.0])).time == begin
     assert first_fall(dips, np.array([begin, 5.0])).time == pytest.approx(4.5 - 1e-5, abs=1e-9)
+
+
+def test_near_a_singular_position_noise_is_neither_a_fall_nor_refined():
+    """A force over a vanishing lever: its rounding grows, and one guard falls all the same."""
+    generator = np.random.default_rng(3)
+
+    def uncertainty(t):
+        return np.tile(1e-15 / (1 - t) ** 2, (2, 1))
+
+    def guards(t):
+        noise = uncertainty(t) * generator.uniform(-1, 1, (2, len(t)))
+        return np.array([1e-9 + 0 * t, 0.99 - t]) + noise
+
+    fall = first_fall(guards, np.array([0.0, 0.5, 0.9, 1 - 1e-6]), uncertainty)
+    assert fall.guard == 1
+    assert fall.time == pytest.approx(0.99, abs=1e-9)
