@@ -113,11 +113,9 @@ def is_regular_in_other_angles(
         return False
     declared, turned = (hybrid.dynamics_in(c, phases).without_auxiliary for c in ((), chart))
     angles = hybrid.angles_between(declared, turned, chart)
-    own, other = (
-        {s: float(hybrid.constants[s]) for s in one.parameters} for one in (declared, turned)
-    )
-    there = angles.state(state, np.array(list(own.values())), 0.0)
-    check_start(turned, Start(there, {}), other)
+    there = angles.state(state, _numbers(hybrid, declared), 0.0)
+    known = dict(zip(turned.parameters, _numbers(hybrid, turned).tolist(), strict=True))
+    check_start(turned, Start(there, {}), known)
     return True
 
 
@@ -146,8 +144,9 @@ def as_declared(hybrid: HybridSystem, mode: CompiledMode, piece: TrajectoryPiece
     """A piece of a mode in other angles, as it is read."""
     declared = hybrid.dynamics_in((), mode.mode.phases)
     angles = hybrid.angles_between(declared, mode.dynamics, hybrid.chart)
+    # as they hold on the piece: those of prescribed motions may have changed where it ends
     known = dict(zip(mode.dynamics.parameters, piece.constants.tolist(), strict=True))
-    constants = np.array([known[s] for s in angles.declared.parameters])
+    constants = np.array([known[s] for s in declared.parameters])
     found = turned_piece(angles, piece, hybrid.declared_angles, constants)
     there = state_at(found, found.end)
     hybrid.declared_angles = {q: there[q] for q in hybrid.declared_angles}
@@ -188,14 +187,11 @@ def _is_same_motion(hybrid: HybridSystem, chart: Chart) -> bool:
 
 
 def _agrees(hybrid: HybridSystem, chart: Chart) -> bool:
-    def numbers(dynamics: Dynamics) -> Array:
-        return np.array([hybrid.constants[s] for s in dynamics.parameters])
-
     declared = _separated(hybrid, ())
     anywhere = dict.fromkeys(declared.states, 0.4)
     try:
         angles = hybrid.angles_between(declared, _separated(hybrid, chart), chart)
-        return angles.is_same_motion(anywhere, numbers)
+        return angles.is_same_motion(anywhere, partial(_numbers, hybrid))
     except PolhodeError:  # what was declared along the axes between needs them as they are
         return False
 
@@ -205,30 +201,44 @@ def _agrees(hybrid: HybridSystem, chart: Chart) -> bool:
 
 def _in_angles(hybrid: HybridSystem, chart: Chart, shared: State) -> State:
     """Go on with other angles, in which a shared state is then described."""
-    before, time = hybrid.chart, np.array([shared.time])
-    source, own = _separated(hybrid, before), np.concatenate([shared.coordinates, shared.speeds])
-    constants = hybrid.separated.parameters
-    if entered := [i for i in chart if i not in before]:
-        all_of_them = tuple(sorted({*before, *entered}))
-        target = _separated(hybrid, all_of_them)
-        angles = hybrid.angles_between(source, target, entered)
-        known = dict(zip(source.states, own.tolist(), strict=True))
-        hybrid.declared_angles |= {q: known[q] for a in angles.chosen for q in a.angles}
-        own = angles.turned_states(own[:, None], constants, time)[:, 0]
-        source = target
-    if left := [i for i in before if i not in chart]:
-        target = _separated(hybrid, chart)
-        angles = hybrid.angles_between(target, source, left)
-        followed = hybrid.declared_angles
-        choices = angles.choices(followed, shared.time)
-        own = angles.declared_states(own[:, None], constants, time, choices)[:, 0]
-        for q in [q for a in angles.chosen for q in a.angles]:
-            place = target.states.index(q)
-            own[place] += 2 * np.pi * np.round((followed[q] - own[place]) / (2 * np.pi))
-        hybrid.declared_angles = {q: followed[q] for q in followed if q not in target.states}
+    before, own = hybrid.chart, np.concatenate([shared.coordinates, shared.speeds])
+    both = tuple(sorted({*before, *chart}))
+    if both != before:
+        own = _turned(hybrid, before, both, own, shared.time)
+    if both != chart:
+        own = _turned_back(hybrid, both, chart, own, shared.time)
     hybrid.in_angles(chart)
     count = len(shared.coordinates)
     return State(shared.time, own[:count], own[count:], shared.work)
+
+
+def _turned(hybrid: HybridSystem, before: Chart, after: Chart, own: Array, time: float) -> Array:
+    """A state with the angles of further attitudes turned; the declared ones are followed then."""
+    source, target = _separated(hybrid, before), _separated(hybrid, after)
+    angles = hybrid.angles_between(source, target, sorted({*after} - {*before}))
+    known = dict(zip(source.states, own.tolist(), strict=True))
+    hybrid.declared_angles |= {q: known[q] for a in angles.chosen for q in a.angles}
+    return angles.turned_states(own[:, None], _numbers(hybrid, source), np.array([time]))[:, 0]
+
+
+def _turned_back(
+    hybrid: HybridSystem, before: Chart, after: Chart, own: Array, time: float
+) -> Array:
+    """A state with the declared angles of some attitudes again, on the turns they have come to."""
+    source, target = _separated(hybrid, before), _separated(hybrid, after)
+    angles = hybrid.angles_between(target, source, sorted({*before} - {*after}))
+    followed, constants = hybrid.declared_angles, _numbers(hybrid, source)
+    choices = angles.choices(followed, time)
+    found = angles.declared_states(own[:, None], constants, np.array([time]), choices)[:, 0]
+    for q in [q for a in angles.chosen for q in a.angles]:
+        place = target.states.index(q)
+        found[place] += 2 * np.pi * np.round((followed[q] - found[place]) / (2 * np.pi))
+    hybrid.declared_angles = {q: followed[q] for q in followed if q not in target.states}
+    return found
+
+
+def _numbers(hybrid: HybridSystem, dynamics: Dynamics) -> Array:
+    return np.array([hybrid.constants[s] for s in dynamics.parameters])
 
 
 def _separated(hybrid: HybridSystem, chart: Chart) -> Dynamics:

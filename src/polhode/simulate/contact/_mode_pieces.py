@@ -198,6 +198,11 @@ class ModePieces(ABC):
         self._scale = max(self._scale, here)
         return self._scale
 
+    @property
+    def fastest(self) -> Any:
+        """The largest of these terms in the modes so far, whose rounding is carried on, m/s."""
+        return self._scale
+
     def slips_in(self, symbols: Sequence[Symbol]) -> tuple[tuple[int, ...], ...]:
         """Places of slip velocities among some states, for the slips that are integrated there."""
         contacts = self._hybrid.automaton.contacts
@@ -218,7 +223,7 @@ class ModePieces(ABC):
         are themselves only rounding.
         """
         points = self._hybrid.touching.at(shared, beyond(self._entry.phases))
-        least = self._hybrid.numbers.finer(NO_SLIP) * self._scale
+        least = self._hybrid.numbers.finer(NO_SLIP) * self.fastest
         size = self._hybrid.numbers.size
         return frozenset(i for i in self._entry.slips if size(points[i].velocity[:2]) <= least)
 
@@ -230,6 +235,7 @@ class DoublePieces(ModePieces):
         hybrid, entry, near_flat: as in `ModePieces`.
         progress: notified of every step.
         tally: of the steps of the whole motion.
+        before: the pieces of the mode before, if there was one.
     """
 
     def __init__(
@@ -239,14 +245,20 @@ class DoublePieces(ModePieces):
         near_flat: float,
         progress: Progress,
         tally: StepCount,
+        before: DoublePieces | None,
     ) -> None:
         super().__init__(hybrid, entry, near_flat)
+        self._fastest_before = before.fastest if before is not None else 0.0
         self._progress = progress
         self._tally = tally
         self._watch = SpeedWatch(self._whole.dependence) if hybrid.speeds else None
 
     def stored_time(self, time: float) -> float:
         return time
+
+    @property
+    def fastest(self) -> float:
+        return max(self._fastest_before, float(self._scale))
 
     @property
     def dynamics(self) -> Dynamics:
@@ -346,8 +358,14 @@ def double_pieces(
     hybrid: HybridSystem, near_flat: float, progress: Progress
 ) -> Callable[[ModeState], DoublePieces]:
     """A function that makes the pieces of each mode a motion enters, in double precision."""
-    tally = StepCount()
-    return lambda entry: DoublePieces(hybrid, entry, near_flat, progress, tally)
+    tally, last = StepCount(), list[DoublePieces]()
+
+    def pieces(entry: ModeState) -> DoublePieces:
+        before = last.pop() if last else None
+        last.append(DoublePieces(hybrid, entry, near_flat, progress, tally, before))
+        return last[-1]
+
+    return pieces
 
 
 def _piece_end(piece: TrajectoryPiece, guard: Guard | None) -> PieceEnd:
