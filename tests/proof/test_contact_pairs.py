@@ -211,4 +211,4 @@ def throw(rng: np.random.Generator) -> Draw:
 
 
 def test_boxes_that_are_thrown(ledger: Ledger) -> None:
-    campaign(ledger, 20, thrown, throw, 3.0)
+    campaign(ledger, 40, thrown, throw, 3.0)

@@ -21,7 +21,6 @@ from polhode.simulate.contact._contact_kinematics import (
 )
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._impact import (
-    STICKS,
     Impact,
     Roughness,
     coulomb_impact,
@@ -30,6 +29,7 @@ from polhode.simulate.contact._impact import (
 )
 from polhode.simulate.contact._joint_impact import ImpactLaw, joint_impact
 from polhode.simulate.contact._mode_state import ModeState, beyond, directions_of
+from polhode.simulate.contact._onset_directions import NO_SLIP
 from polhode.simulate.contact._open_forces import GivesWay
 from polhode.simulate.contact._select_mode import ContactStatus, select_mode
 from polhode.simulate.integrate._arrays import Array
@@ -235,13 +235,18 @@ class Transitions:
         # What leaves more slowly than rounding of the hardest landing stays.
         still = _REBOUND * max(self._hardest.values())
         opened = {k for k, v in zip(taking, after[:, 2], strict=True) if v > still}
-        stuck = {
-            k
-            for k, law, v in zip(taking, laws, after, strict=True)
-            if k not in opened and law.friction and np.hypot(*v[:2]) <= STICKS * points[i].scale
-        }
         flying = {k for k, phase in enumerate(before.phases) if phase.flies}
         closed = [*taking, *self._left_touching(left, flying - set(taking), still)]
+        # A slip of no more than the rounding of the velocities before has ended in the impact.
+        fastest = max(*(points[k].scale for k in taking), *self._hardest.values())
+        there = hybrid.touching.at(left, beyond(before.phases))
+        stuck = {
+            k
+            for k in closed
+            if k not in opened
+            and self._law(hybrid.automaton.contacts[k]).friction
+            and np.hypot(*there[k].velocity[:2]) <= NO_SLIP * fastest
+        }
         separated = frozenset.union(
             frozenset(flying - {j for k in closed for j in hybrid.closing_with(k)}),
             *(hybrid.closing_with(k) for k in opened),
