@@ -19,6 +19,7 @@ from polhode.simulate.integrate._driver import SegmentSolution
 _FINE = 0.5  # rad: angles that change less from one instant to the next are followed over turns
 _INSTANT = 4  # units in the last place of the time: nothing is resolved within
 _ROUNDING = 1e-13  # rad from the pole: an axis that comes as near goes through it
+_BESIDE = 1e-6  # rad from the pole: from here on it goes straight
 
 
 @dataclass(frozen=True)
@@ -154,10 +155,10 @@ class _DeclaredStates:
         middles = (times[:-1] + times[1:]) / 2
         return [middles[jump > np.pi / 2] for jump in jumps]
 
-    def _at_poles(self, angles: Array) -> Array:
-        """Whether an axis is at the pole to rounding, from angles of shape (angles, times)."""
+    def _distances(self, angles: Array) -> Array:
+        """Of the axis that is nearest to its pole, from angles of shape (angles, times), rad."""
         offsets = np.array([[a.geometry.offset] for a in self._angles.chosen])
-        found: Array = np.any(np.abs(np.sin(angles[1::3] - offsets)) < _ROUNDING, axis=0)
+        found: Array = np.min(np.abs(np.sin(angles[1::3] - offsets)), axis=0)
         return found
 
     def _own(self, times: Array) -> Array:
@@ -177,18 +178,20 @@ class _DeclaredStates:
         fine = list[Array]()
         while True:
             angles = self._followed_angles(times)
-            kept = np.logical_not(self._at_poles(angles))
-            kept[[0, -1]] = True
-            times, angles = times[kept], angles[:, kept]
-            changes = _within_half_a_turn(np.diff(angles, axis=1))
-            large = np.max(np.abs(changes), axis=0) > _FINE
-            large &= np.diff(times) > _INSTANT * np.spacing(times[1:])
-            middles = (times[:-1] + times[1:])[large] / 2
+            distances = self._distances(angles)
+            is_at_pole = distances < _ROUNDING
+            left, right = is_at_pole[:-1], is_at_pole[1:]
+            changes = np.max(np.abs(_within_half_a_turn(np.diff(angles, axis=1))), axis=0)
+            wide = (changes > _FINE) & ~(left | right)
+            wide |= (left ^ right) & (np.maximum(distances[:-1], distances[1:]) > _BESIDE)
+            wide &= np.diff(times) > _INSTANT * np.spacing(times[1:])
+            middles = (times[:-1] + times[1:])[wide] / 2
             if not len(middles):
                 break
             fine.append(middles)
             times = np.sort(np.concatenate([times, middles]))
-        return times, np.sort(np.concatenate([steps, *fine]))
+        is_at_pole[[0, -1]] = False
+        return times[~is_at_pole], np.sort(np.concatenate([steps, *fine]))
 
     def _parts(self, steps: Array) -> list[int]:
         """Into how many parts each step is divided so that no angle turns far, poles left aside."""

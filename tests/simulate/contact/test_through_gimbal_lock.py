@@ -146,6 +146,17 @@ def test_a_box_comes_to_rest_on_the_face_of_gimbal_lock(heading, tilt):
     assert one.final["z"] == pytest.approx(SIDES[0] / 2, abs=1e-12)
 
 
+def test_a_box_rocks_through_the_pole_until_it_lies():
+    """Over its edges in turn, straight through the pole to rounding, ever faster."""
+    start = {"psi": 0.3, "theta": -1.45, "phi": 0.02, "z": 0.16, "v_x": 0.3}
+    numbers = {"m": 1.3, "g": 9.81, "mu": 0.4} | dict(zip("abc", (0.2, 0.3, 0.15), strict=True))
+    run = ph.simulate(box(0), numbers, start, 0.6, samples=7)
+    assert run.mode == "rolling"
+    assert run.final["z"] == pytest.approx(0.1, abs=1e-12)
+    assert run["theta"][-3:] == pytest.approx(-np.pi / 2, abs=1e-9)
+    assert np.all(np.diff(run["energy"]) < 1e-12)
+
+
 def test_a_motion_through_gimbal_lock_is_loaded_as_it_was_saved(tmp_path):
     angles = 0.3, -np.pi / 2 + 0.12, 0.02
     start = dict(zip(("psi", "theta", "phi"), angles, strict=True))
