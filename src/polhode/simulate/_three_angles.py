@@ -31,12 +31,12 @@ class PoleChoice:
     """What describes an attitude where its angles leave a choice.
 
     Attributes:
-        side: sign of the sine of the second angle, which may change in time.
+        side: sign of the sine of the second angle.
         first: the first angle while the third axis coincides with the first, at a time; it goes
             on at a steady rate.
     """
 
-    side: float | Array = 1.0
+    side: float = 1.0
     first: float = 0.0
     rate: float = 0.0
     time: float = 0.0

@@ -12,14 +12,11 @@ from polhode.algebra import Expr, Symbol
 from polhode.simulate._dynamics import WORK, Dynamics
 from polhode.simulate._other_angles import OtherAngles, States
 from polhode.simulate._segment import TrajectoryPiece, values_of
-from polhode.simulate._three_angles import PoleChoice
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._driver import SegmentSolution
 
 _FINE = 0.5  # rad: angles that change less from one instant to the next are followed over turns
 _INSTANT = 4  # units in the last place of the time: nothing is resolved within
-_ROUNDING = 1e-13  # rad from the pole: an axis that comes as near goes through it
-_BESIDE = 1e-6  # rad from the pole: from here on it goes straight
 
 
 @dataclass(frozen=True)
@@ -97,9 +94,7 @@ class _DeclaredStates:
         self._places = [declared.index(q) for a in angles.chosen for q in a.angles]
         steps = turned.solution.steps
         steps = np.append(steps[steps < turned.end], turned.end)
-        self._flips = [np.empty(0) for _ in angles.chosen]
         times, self.steps = self._resolved(steps)
-        self._flips = self._flipped(times)
         raw = self._followed_angles(times)
         first = np.array([before[declared[i]] for i in self._places])
         changes = _within_half_a_turn(np.diff(raw, axis=1))
@@ -121,7 +116,7 @@ class _DeclaredStates:
 
     def __call__(self, times: Array) -> Array:
         own, constants = self._own(times), self._turned.constants
-        states = self._angles.declared_motion(own, constants, times, self._choices_at(times))
+        states = self._angles.declared_motion(own, constants, times, self._choices)
         for i, followed in zip(self._places, self._followed, strict=True):
             near = np.interp(times, self._times, followed)
             states[i] += 2 * np.pi * np.round((near - states[i]) / (2 * np.pi))
@@ -134,32 +129,8 @@ class _DeclaredStates:
     def _followed_angles(self, times: Array) -> Array:
         """The declared angles, within one turn."""
         own, constants = self._own(times), self._turned.constants
-        choices = self._choices_at(times)
-        found: Array = self._angles.declared_states(own, constants, times, choices)
+        found: Array = self._angles.declared_states(own, constants, times, self._choices)
         return found[self._places]
-
-    def _choices_at(self, times: Array) -> list[PoleChoice]:
-        """How the motion is described at some times, by attitude."""
-        found = []
-        for choice, flips in zip(self._choices, self._flips, strict=True):
-            is_flipped = np.searchsorted(flips, times, "right") % 2 == 1
-            found.append(replace(choice, side=np.where(is_flipped, -choice.side, choice.side)))
-        return found
-
-    def _flipped(self, times: Array) -> list[Array]:
-        """When an axis goes through the pole to rounding, by attitude: θ changes its sign there.
-
-        Otherwise φ would jump by half a turn, one way or the other as rounding has it.
-        """
-        jumps = np.abs(_within_half_a_turn(np.diff(self._followed_angles(times)[::3], axis=1)))
-        middles = (times[:-1] + times[1:]) / 2
-        return [middles[jump > np.pi / 2] for jump in jumps]
-
-    def _distances(self, angles: Array) -> Array:
-        """Of the axis that is nearest to its pole, from angles of shape (angles, times), rad."""
-        offsets = np.array([[a.geometry.offset] for a in self._angles.chosen])
-        found: Array = np.min(np.abs(np.sin(angles[1::3] - offsets)), axis=0)
-        return found
 
     def _own(self, times: Array) -> Array:
         """The states in the turned angles."""
@@ -177,21 +148,15 @@ class _DeclaredStates:
         times = np.append(np.concatenate(pieces), steps[-1:])
         fine = list[Array]()
         while True:
-            angles = self._followed_angles(times)
-            distances = self._distances(angles)
-            is_at_pole = distances < _ROUNDING
-            left, right = is_at_pole[:-1], is_at_pole[1:]
-            changes = np.max(np.abs(_within_half_a_turn(np.diff(angles, axis=1))), axis=0)
-            wide = (changes > _FINE) & ~(left | right)
-            wide |= (left ^ right) & (np.maximum(distances[:-1], distances[1:]) > _BESIDE)
-            wide &= np.diff(times) > _INSTANT * np.spacing(times[1:])
-            middles = (times[:-1] + times[1:])[wide] / 2
+            changes = _within_half_a_turn(np.diff(self._followed_angles(times), axis=1))
+            large = np.max(np.abs(changes), axis=0) > _FINE
+            large &= np.diff(times) > _INSTANT * np.spacing(times[1:])
+            middles = (times[:-1] + times[1:])[large] / 2
             if not len(middles):
                 break
             fine.append(middles)
             times = np.sort(np.concatenate([times, middles]))
-        is_at_pole[[0, -1]] = False
-        return times[~is_at_pole], np.sort(np.concatenate([steps, *fine]))
+        return times, np.sort(np.concatenate([steps, *fine]))
 
     def _parts(self, steps: Array) -> list[int]:
         """Into how many parts each step is divided so that no angle turns far, poles left aside."""
