@@ -38,6 +38,7 @@ from polhode.model import (
     Spin,
     System,
     WithAxes,
+    rebuilt,
 )
 
 #: Appended to the names of angles that are counted from turned axes.
@@ -189,14 +190,8 @@ def with_turned_angles(system: System, chosen: Iterable[AngleTriple]) -> System:
     independent = system.independent
     if any(s.base() in left_out for s in independent):
         independent = ()
-    return System(
-        *(copier.copied(part) for part in (*system.bodies, *system.elements, *system.loads)),
-        name=system.name,
-        independent=map(Expr.generator, independent),
-        speeds=kept,
-        impacts=system.impacts,
-        sharing=system.sharing,
-    )
+    parts = (*system.bodies, *system.elements, *system.loads)
+    return rebuilt(system, tuple(map(copier.copied, parts)), map(Expr.generator, independent), kept)
 
 
 @dataclass(frozen=True)

@@ -421,7 +421,7 @@ class _General:
     solve: _Solver
 
     def at(self, free: Row) -> dict[str, Expr]:
-        """The reactions by name, from the values of those that are open."""
+        """All reactions by name, with given values for the open ones."""
         return {c.name: _value(self.values[j], free) for j, c in enumerate(self.columns)}
 
     def least(self) -> dict[str, Expr]:

@@ -111,6 +111,7 @@ from polhode.model._surface import Rim as Rim
 from polhode.model._surface import Round as Round
 from polhode.model._surface import Surface as Surface
 from polhode.model._system import System as System
+from polhode.model._system import rebuilt as rebuilt
 from polhode.model._system import with_edge as with_edge
 from polhode.model._system import with_elements as with_elements
 from polhode.model._system import with_friction as with_friction

@@ -231,29 +231,33 @@ def _refuse_same_names(kind: str, parts: Sequence[Part]) -> None:
 def with_elements(system: System, elements: dict[str, Element]) -> System:
     """The same system with other contacts or joints under some of the names."""
     changed = [elements.get(element.name, element) for element in system.elements]
-    return _again(system, (*system.bodies, *changed, *system.loads))
+    return rebuilt(system, (*system.bodies, *changed, *system.loads))
 
 
 def with_loads(system: System, *loads: Load) -> System:
     """The same system with further loads."""
-    return _again(system, (*system.bodies, *system.elements, *system.loads, *loads))
+    return rebuilt(system, (*system.bodies, *system.elements, *system.loads, *loads))
 
 
 def with_independent(system: System, speeds: Iterable[Expr]) -> System:
     """The same system with other speeds to be kept as independent."""
-    return _again(system, (*system.bodies, *system.elements, *system.loads), speeds)
+    return rebuilt(system, (*system.bodies, *system.elements, *system.loads), speeds)
 
 
-def _again(
-    system: System, parts: tuple[Part, ...], independent: Iterable[Expr] | None = None
+def rebuilt(
+    system: System,
+    parts: tuple[Part, ...],
+    independent: Iterable[Expr] | None = None,
+    speeds: Mapping[str | Expr, Expr] | None = None,
 ) -> System:
     """A system of these parts, otherwise as declared."""
     kept = [Expr.generator(symbol) for symbol in system.independent]
+    chosen: Mapping[str | Expr, Expr] = {s.name: meaning for s, meaning in system.speeds}
     return System(
         *parts,
         name=system.name,
         independent=kept if independent is None else independent,
-        speeds={symbol.name: meaning for symbol, meaning in system.speeds},
+        speeds=chosen if speeds is None else speeds,
         impacts=system.impacts,
         sharing=system.sharing,
     )

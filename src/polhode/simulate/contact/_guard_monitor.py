@@ -29,7 +29,7 @@ from polhode.simulate.contact._mode_expressions import vanishing_expression
 from polhode.simulate.contact._mode_state import ModeState, beyond, directions_of
 from polhode.simulate.contact._select_mode import painleve
 from polhode.simulate.contact._transition import index_of
-from polhode.simulate.integrate._arrays import Array, rows
+from polhode.simulate.integrate._arrays import Array, probed, rows
 from polhode.simulate.integrate._crossing import first_fall
 from polhode.simulate.integrate._stop_criteria import Stop
 
@@ -108,9 +108,8 @@ class _DoubleOutput:
         return np.where(passed <= _INSTANT * np.spacing(self.begin), 0.0, passed)
 
 
-#: Guards at some places, of states that are changed by a share of themselves.
+#: Guards at some places, of the states there or of others.
 _GuardValues = Callable[..., Array]
-_PROBED = 8 * float(np.finfo(float).eps)  # a few roundings
 
 
 def _time(output: DenseOutput, place: float) -> float:
@@ -194,7 +193,8 @@ class GuardMonitor:
 
         def uncertainty(places: Array) -> Array:
             with np.errstate(all="ignore"):
-                found = np.abs(values(places, _PROBED) - values(places))
+                moved = values(places, lambda at: probed(output.at(at)))
+                found = np.abs(moved - values(places))
             return np.where(np.isfinite(found), found, 0.0)
 
         if sides:
@@ -256,14 +256,9 @@ class GuardMonitor:
         function = mode.dynamics.function(wanted, arguments, output.turned)
         speeds = self._initial_speeds(watched)
 
-        def evaluate(places: Array, probed: float = 0.0) -> Array:
-            # one state up and the next one down, so that common factors do not cancel
-            states = output.at(places)
-            if probed:
-                up = np.where(np.arange(len(states)) % 2, -probed, probed)
-                states = states * (1.0 + up[:, None])
+        def evaluate(places: Array, states: Callable[[Array], Array] = output.at) -> Array:
             with np.errstate(all="ignore"):
-                found = function(*states, *output.constants, output.times(places))
+                found = function(*states(places), *output.constants, output.times(places))
             values: Array = rows(found, len(places))
             for k, rise in speeds.items():
                 values[k] = rise.mean(values[k], output.passed(places))

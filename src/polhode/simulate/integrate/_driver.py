@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from polhode.algebra import Symbol
 from polhode.base import Progress, bisected
-from polhode.simulate.integrate._arrays import Array, ascending, occurring
+from polhode.simulate.integrate._arrays import Array, ascending, occurring, probed
 from polhode.simulate.integrate._flow import Flow, Stage
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._quadrature import integral
@@ -69,7 +69,6 @@ def is_steady(flow: Flow, parameters: Array, state: Array) -> bool:
 
 
 _FEW = 10_000  # times for which states are kept: larger sets are rarely read twice
-_ROUNDING = 8 * float(np.finfo(float).eps)  # relative change of states that probes the rates
 _TURNS = 4  # periods after which an angle is reduced by whole turns: its sine keeps all its digits
 
 States: TypeAlias = Callable[[Array], Array]
@@ -320,12 +319,11 @@ def _summed(
     def rates(times: Array) -> Array:
         return flow.values(stage.rates, inner(times), parameters, times)
 
-    # The uncertainty of the rates: how much they change when the states are changed by a few
-    # roundings, alternately up and down so that common factors do not cancel.
+    # The uncertainty of the rates: how much they change with the last digits of the states.
     states = inner(steps)
-    moved = states * (1.0 + _ROUNDING * np.where(np.arange(len(states)) % 2, -1.0, 1.0)[:, None])
     with np.errstate(all="ignore"):
-        here, there = (flow.values(stage.rates, s, parameters, steps) for s in (states, moved))
+        both = states, probed(states)
+        here, there = (flow.values(stage.rates, s, parameters, steps) for s in both)
         noise = np.max(np.abs(there - here), axis=1, initial=0.0)
         found = integral(rates, steps, np.where(np.isfinite(noise), noise, 0.0), start)
     return lambda times: start[:, None] + found.at(times)
