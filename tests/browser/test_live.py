@@ -188,6 +188,65 @@ def test_the_letter_of_an_angle_is_dragged_to_another_start(opened, live):
         assert shown.complaints == []
 
 
+def drag(page, x, y):
+    """From the middle of the picture, where the body is, by so many pixels."""
+    box = page.locator(".picture").bounding_box()
+    middle = box["x"] + box["width"] / 2, box["y"] + 0.55 * box["height"]
+    page.mouse.move(*middle)
+    page.mouse.down()
+    for step in range(1, 6):
+        page.mouse.move(middle[0] + x * step / 5, middle[1] + y * step / 5)
+        page.wait_for_timeout(30)
+    page.mouse.up()
+
+
+def test_a_body_is_pushed_in_the_middle_of_its_motion_and_the_link_holds_that(opened, live, disk):
+    page = disk.page
+    page.get_by_role("slider", name="Time", exact=True).fill("500")
+    page.get_by_role("button", name="Push").click()
+    drag(page, 90, -20)
+    settled(disk)
+    disk.until(lambda: page.get_by_role("button", name="Pause").count() == 1)
+    assert "let go" in message(disk)
+    page.get_by_role("button", name="Pause").click()
+    address = page.evaluate("location.href")
+    pushed = saved(disk, "Save table").read_text()
+    columns = table(pushed)
+    assert columns["x"][0] ** 2 + columns["y"][0] ** 2 > 0.3**2  # it had rolled for 0.5 s
+    file = live("rolling-disk", "--mu", "0.3", "--duration", "2s")
+    with opened(file, accept_downloads=True) as other:
+        other.page.goto(address)
+        other.page.reload()
+        other.page.wait_for_selector("body[data-ready]")
+        settled(other)
+        assert saved(other, "Save table").read_text() == pushed
+        other.page.goto(address.replace("begin=", "begin=1+"))
+        settled(other)
+        assert "do not fit" in message(other)
+        set_field(other, "theta", "70 deg")
+        assert "let go" not in message(other)
+        assert other.complaints == []
+
+
+def test_a_body_is_moved_to_another_start(disk):
+    page = disk.page
+    before = [
+        float(page.locator(f'[data-name="{n}"] input[type=text]').input_value().split()[0])
+        for n in "xy"
+    ]
+    page.get_by_role("button", name="Move").click()
+    drag(page, 60, 10)
+    settled(disk)
+    page.get_by_role("button", name="Turn view").click()
+    after = [
+        float(page.locator(f'[data-name="{n}"] input[type=text]').input_value().split()[0])
+        for n in "xy"
+    ]
+    assert before == [0, 0]
+    assert 1e-3 < abs(after[0]) + abs(after[1]) < 1
+    assert disk.complaints == []
+
+
 def test_what_the_plots_show_is_played_again_and_again(disk):
     page = disk.page
     page.get_by_role("slider", name="Time").fill("0")

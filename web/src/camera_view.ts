@@ -27,6 +27,8 @@ export class CameraView {
   private fitted: Fitted = { target: new Vector3(), balls: [], distance: 1 };
   /** Whether a reader wants to follow a body; null where the motion decides. */
   chosen: boolean | null = null;
+  /** Whether it stays as it is, since a hand holds a body in it. */
+  held = false;
 
   /**
    * @param follow whether it goes along with a body.
@@ -76,6 +78,7 @@ export class CameraView {
    * @param from where the camera was.
    */
   takeOver(before: CameraView, from: Vector3): void {
+    if (before.held) return this.hold(before, from);
     const { target, balls, distance } = before.fitted;
     const offset = from.clone().sub(before.controls.target);
     const aside = before.follow ? new Vector3() : before.controls.target.clone().sub(target);
@@ -90,6 +93,14 @@ export class CameraView {
     this.camera.position.copy(this.controls.target).addScaledVector(offset.normalize(), zoom * this.fitted.distance);
     this.controls.update();
     this.aim();
+  }
+
+  /** See everything as an earlier view did. */
+  private hold(before: CameraView, from: Vector3): void {
+    [this.held, this.follow, this.fitted] = [true, before.follow, before.fitted];
+    this.controls.target.copy(before.controls.target);
+    this.camera.position.copy(from);
+    this.controls.update();
   }
 
   private readonly setZooms = (): void => {
@@ -127,6 +138,19 @@ export class CameraView {
     const caster = new Raycaster();
     caster.setFromCamera(point, this.camera);
     return caster.ray;
+  }
+
+  /** Where on the screen a point of the root frame is seen, in pixels. */
+  seenAt(point: Triple): [number, number] {
+    const box = this.holder.getBoundingClientRect();
+    const { x, y } = this.place.set(...point).project(this.camera);
+    return [box.left + ((x + 1) / 2) * box.width, box.top + ((1 - y) / 2) * box.height];
+  }
+
+  /** The point under a point of the screen that is as far away as another one. */
+  facing(x: number, y: number, other: Vector3): Vector3 | null {
+    const plane = new Plane().setFromNormalAndCoplanarPoint(this.camera.getWorldDirection(new Vector3()), other);
+    return this.sight(x, y).intersectPlane(plane, new Vector3());
   }
 
   /** Back to the initial view, as close as possible with everything in view. */
@@ -181,7 +205,7 @@ export class CameraView {
   /** Move with the body, if it is followed. */
   chase(): void {
     this.body(this.last);
-    if (!this.follow) return;
+    if (!this.follow || this.held) return;
     const before = this.controls.target.clone();
     const step = this.target(this.controls.target).clone().sub(before);
     this.camera.position.add(step);

@@ -28,8 +28,9 @@ export class Plan {
     if (this.isEmpty) return;
     this.fit(paths.flat());
     for (const path of paths) {
-      const pieces = path.map((point) => (point ? this.placed(point).join(" ") : "")).join(",").split(/,{2,}/);
-      for (const piece of pieces) this.element.append(drawn("polyline", { points: piece }));
+      // a gap, as of a contact that has opened, leaves commas without points
+      const pieces = path.map((point) => (point ? this.placed(point).join(" ") : "")).join(",").split(/^,+|,{2,}|,+$/);
+      for (const piece of pieces.filter(Boolean)) this.element.append(drawn("polyline", { points: piece }));
     }
     this.element.append(this.dot);
   }

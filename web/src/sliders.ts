@@ -61,8 +61,13 @@ export class Slider {
 
   /** Set a value in SI units. */
   set(si: number): void {
-    this.show(this.printed(si / this.control.size, 8));
-    this.changed(this.control.name, this.field.value);
+    this.changed(this.control.name, this.put(si));
+  }
+
+  /** Show a value in SI units; what it is written as. */
+  put(si: number): string {
+    this.show(this.printed(si / this.control.size, 6));
+    return this.field.value;
   }
 
   get name(): string {

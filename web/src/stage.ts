@@ -1,6 +1,6 @@
 // The three-dimensional picture.
 
-import { type Object3D, Vector2, Vector3 } from "three";
+import { type Object3D, Raycaster, Vector2, Vector3 } from "three";
 import { Annotations } from "./annotations";
 import { type Extent, extentOf, tracedBy } from "./extent";
 import { CameraView } from "./camera_view";
@@ -19,6 +19,7 @@ import { Triad } from "./triad";
 const SPACIOUS = 6; // body sizes: beyond this extent, arrows are drawn larger
 const WANDERS = 12; // body sizes: beyond this extent the body would be a dot, and is followed
 const WIDE = 60; // reaches by which a sheet is wider while a hand pulls it
+const BESIDE = 22; // pixels from the centre of a small body, at which a finger takes it
 const LIFT = 0.05; // of a floor below what stands on it, in reaches
 
 export class Stage {
@@ -169,6 +170,29 @@ export class Stage {
   /** The value of a coordinate whose arc would end under a point of the screen; null where none does. */
   angleAt(coordinate: string, x: number, y: number): number | null {
     return this.annotations.angleAt(coordinate, this.view.sight(x, y));
+  }
+
+  /** The body under a point of the screen, or right beside it, and the point of it that is seen; m. */
+  bodyAt(x: number, y: number): { body: number; point: Vector3 } | null {
+    const { origin, direction } = this.view.sight(x, y);
+    const objects = this.moving.slice(0, this.poses.length).map(({ object }) => object);
+    const [hit] = new Raycaster(origin, direction).intersectObjects(objects);
+    if (hit) {
+      let object = hit.object;
+      while (!objects.includes(object) && object.parent) object = object.parent;
+      return { body: objects.indexOf(object), point: hit.point };
+    }
+    const away = (body: number): number => {
+      const [seenX, seenY] = this.view.seenAt(this.placeOf(body));
+      return Math.hypot(seenX - x, seenY - y);
+    };
+    const nearest = objects.reduce((best, _, i) => (away(i) < away(best) ? i : best), 0);
+    return away(nearest) < BESIDE ? { body: nearest, point: new Vector3(...this.placeOf(nearest)) } : null;
+  }
+
+  /** The centre of mass of a body, m. */
+  placeOf(body: number): Triple {
+    return this.poses[body].placeAt(this.frame, new Vector3()).toArray();
   }
 
   /** Everything that is switched on, by name. */

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any
 
-from polhode.algebra import Expr, Symbol, SymbolKind, as_symbol, read_value
+from polhode.algebra import Expr, Symbol, SymbolKind, as_symbol, read_value, variables
 from polhode.base import PURE, TIME, read_quantity
 from polhode.derive import Equations, is_angle
 from polhode.model import Body, Contact, Coulomb, CurvedSupport, Sheet, System
@@ -179,6 +179,7 @@ def live_document(
         ],
         "states": outputs.numbers(Expr.generator(symbol) for symbol in states),
         "work": outputs.numbers([Expr.generator(WORK)])[0],
+        "timed": any(_is_timed(mode.equations) for mode in kernels.modes),
         "schedule": {
             "times": kernels.schedule.times,
             "values": kernels.schedule.values,
@@ -195,6 +196,12 @@ def live_document(
         for mode, expressions in zip(kernels.modes, outputs.expressions, strict=True)
     ]
     return document | {"code": kernel_code(), "outputs": shown_outputs, "modes": modes}
+
+
+def _is_timed(equations: Equations) -> bool:
+    """Whether a motion that starts later is another one."""
+    kinds = {s.kind for s in variables([*equations.mass.entries, *equations.forcing])}
+    return not kinds.isdisjoint((SymbolKind.FUNCTION, SymbolKind.TIME))
 
 
 def _mode(kernels: PageKernels, mode: PageMode, shown: list[Expr | None]) -> dict[str, Any]:
@@ -396,6 +403,8 @@ def _body(body: Body, is_sided: bool, system: System, outputs: _Outputs) -> dict
         "turning": turning,
         "spin": spin,
         "axis": axis,
+        "velocity": outputs.vector(lambda equations: equations.kinetics.velocities[body][0]),
+        "rotation": outputs.vector(lambda equations: equations.kinetics.velocities[body][1]),
         "arms": [outputs.numbers(arm) for arm in arms_in(system, body)],
         "labels": labels_of(body),
     }

@@ -1,6 +1,7 @@
 // The answer to a request: a picture of the motion, or a table.
 
 import type { Reply, Request } from "./computer";
+import { handled } from "./hand";
 import type { LiveData } from "./model";
 import type { Ending, Engine, Motion } from "./motion";
 import { type Computed, pictured } from "./picture";
@@ -15,7 +16,8 @@ export interface Answer {
 /** The answer, or the reason why there is none. */
 export function replyTo(engine: Engine, live: LiveData, request: Request): Reply {
   try {
-    return { id: request.id, answer: answered(engine, live, request) };
+    const { id, numbers, hand } = request;
+    return { id, answer: hand ? handled(engine, live, numbers, hand) : answered(engine, live, request) };
   } catch (error) {
     return { id: request.id, error: (error as Error).message };
   }

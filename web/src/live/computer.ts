@@ -3,6 +3,7 @@
 import type { LiveData, Numbers } from "./model";
 import { Engine } from "./motion";
 import { type Answer, replyTo } from "./answer";
+import type { Hand, Handled } from "./hand";
 
 export interface Request {
   id: number;
@@ -10,14 +11,18 @@ export interface Request {
   frames: number;
   /** Whether a table is wanted in place of a picture. */
   table: boolean;
+  /** Where only another start is wanted. */
+  hand?: Hand;
 }
 
-export type Reply = { id: number; answer: Answer } | { id: number; error: string };
+export type Reply = { id: number; answer: Answer | Handled } | { id: number; error: string };
+
+type Waiting = { done: (answer: Answer & Handled) => void; failed: (reason: Error) => void };
 
 /** Answers the latest of many requests. */
 export class Computer {
   private count = 0;
-  private readonly waiting = new Map<number, { done: (answer: Answer) => void; failed: (reason: Error) => void }>();
+  private readonly waiting = new Map<number, Waiting>();
 
   private constructor(private readonly send: (request: Request) => void) {}
 
@@ -53,17 +58,26 @@ export class Computer {
   }
 
   ask(numbers: Numbers, frames: number, table = false): Promise<Answer> {
+    return this.sent({ numbers, frames, table });
+  }
+
+  /** The start of a motion, as a hand changes it. */
+  handle(numbers: Numbers, hand: Hand): Promise<Handled> {
+    return this.sent({ numbers, frames: 0, table: false, hand });
+  }
+
+  private sent(request: Omit<Request, "id">): Promise<Answer & Handled> {
     const id = (this.count += 1);
     return new Promise((done, failed) => {
       this.waiting.set(id, { done, failed });
-      this.send({ id, numbers, frames, table });
+      this.send({ id, ...request });
     });
   }
 
   private receive(reply: Reply): void {
     const waiting = this.waiting.get(reply.id);
     this.waiting.delete(reply.id);
-    if ("answer" in reply) waiting?.done(reply.answer);
+    if ("answer" in reply) waiting?.done(reply.answer as Answer & Handled);
     else waiting?.failed(new Error(reply.error));
   }
 }

@@ -11,6 +11,8 @@ export const transposed = (m: Matrix): Matrix => (m.length ? m[0].map((_, k) => 
 
 export const plus = (a: Vector, b: Vector, share = 1): Vector => a.map((part, i) => part + share * b[i]);
 
+export const cross = ([a, b, c]: Vector, [x, y, z]: Vector): Vector => [b * z - c * y, c * x - a * z, a * y - b * x];
+
 export const scaled = (a: Vector, factor: number): Vector => a.map((part) => factor * part);
 
 /** Entries in rows of a length. */

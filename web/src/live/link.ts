@@ -4,6 +4,8 @@
 export interface Chosen {
   parameters: Map<string, string>;
   start: Map<string, string>;
+  /** Numbers of a start that sliders do not hold, SI; null for one that they do. */
+  begin: number[] | null;
   duration: string;
   time: number;
   /** From where the picture is seen, in reaches of the body; empty for the usual view. */
@@ -12,15 +14,16 @@ export interface Chosen {
   shown: string[] | null;
 }
 
-export const unchanged = (): Chosen => ({ parameters: new Map(), start: new Map(), duration: "", time: 0, view: [], shown: null });
+export const unchanged = (): Chosen => ({ parameters: new Map(), start: new Map(), begin: null, duration: "", time: 0, view: [], shown: null });
 
-const KNOWN = ["system", "set", "start", "duration", "time", "view", "show"];
+const KNOWN = ["system", "set", "start", "begin", "duration", "time", "view", "show"];
 const FARTHEST = 1e4; // reaches
 
 export function written(system: string, chosen: Chosen): string {
   const pairs = new URLSearchParams({ system });
   for (const [name, text] of chosen.parameters) pairs.append("set", `${name}=${text}`);
   for (const [name, text] of chosen.start) pairs.append("start", `${name}=${text}`);
+  if (chosen.begin) pairs.set("begin", chosen.begin.join(" "));
   if (chosen.duration) pairs.set("duration", chosen.duration);
   if (chosen.time) pairs.set("time", chosen.time.toPrecision(6));
   if (chosen.view.length) pairs.set("view", chosen.view.map((part) => Number(part.toPrecision(4))).join(" "));
@@ -41,8 +44,9 @@ export function read(system: string, hash: string): Chosen | null {
   const view = (pairs.get("view") ?? "").split(" ").filter(Boolean).map(Number);
   const size = Math.hypot(...view);
   if (view.length && !(view.length === 3 && size > 0 && size < FARTHEST)) throw new Error("The link gives a view that is not three numbers.");
+  const begin = pairs.has("begin") ? (pairs.get("begin") ?? "").split(" ").map(Number) : null;
   const shown = pairs.has("show") ? (pairs.get("show") ?? "").split(" ") : null;
-  return { parameters: assigned(pairs.getAll("set")), start: assigned(pairs.getAll("start")), duration: pairs.get("duration") ?? "", time, view, shown };
+  return { parameters: assigned(pairs.getAll("set")), start: assigned(pairs.getAll("start")), begin, duration: pairs.get("duration") ?? "", time, view, shown };
 }
 
 function assigned(texts: string[]): Map<string, string> {

@@ -37,6 +37,9 @@ export interface DrawnBody {
   turning: Outputs | null;
   spin: number | null;
   axis: Outputs | null;
+  /** Of the centre of mass, and of the rotation. */
+  velocity: Outputs;
+  rotation: Outputs;
   arms: Outputs[];
   labels: string[];
 }
@@ -141,6 +144,8 @@ export interface LiveData {
   /** Outputs of the coordinates and speeds of `start`, and of the work done. */
   states: Outputs;
   work: number;
+  /** Whether a motion that starts later is another one. */
+  timed: boolean;
   /** Coefficients of prescribed motions that are given piece by piece, from certain times on; jerks are jumps of a velocity. */
   schedule: { times: number[]; values: number[][]; jerks: boolean[] };
   /** Name of the contact by whose rules modes follow each other; null where there is one mode only. */
@@ -158,5 +163,7 @@ export interface LiveData {
 export interface Numbers {
   parameters: number[];
   start: number[];
+  /** In place of `start`: coordinates and speeds of flight, also of a body that touches and slips. */
+  begin?: number[] | null;
   duration: number;
 }

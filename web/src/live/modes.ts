@@ -139,7 +139,7 @@ export class Modes {
     return this.live.modes.findIndex((mode) => mode.phase === phase && mode.beyond === beyond);
   }
 
-  private flight(beyond: boolean): number {
+  flight(beyond: boolean): number {
     const found = this.find("flight", beyond);
     return found < 0 ? this.find("flight", false) : found;
   }
@@ -227,7 +227,19 @@ export class Modes {
     const state = this.whole(0, own, 0);
     this.refuseImpossibleMasses(0, state);
     const shared = this.shared(0, state, 0);
-    if (this.data(0).phase !== "flight") return this.select(shared, {});
+    return this.data(0).phase === "flight" ? this.begun(shared) : this.select(shared, {});
+  }
+
+  /** The first mode of a motion, from coordinates and speeds of flight. */
+  resumed(begin: Vector): Entry {
+    this.refuseImpossible();
+    const { coordinates } = this.data(this.flight(false));
+    const shared = { time: 0, coordinates: begin.slice(0, coordinates.length), speeds: begin.slice(coordinates.length), work: 0 };
+    this.refuseImpossibleMasses(...this.inFlight(shared, false));
+    return this.begun(shared);
+  }
+
+  private begun(shared: Shared): Entry {
     const point = this.kinematics(shared, this.isBeyond(shared));
     if (point.gap < -GAP * point.extent) throw new NoModeError("The body starts below its support.");
     const meets = point.gap <= GAP * point.extent;

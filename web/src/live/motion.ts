@@ -108,8 +108,55 @@ export class Engine {
   follow(numbers: Numbers, frames: number): Motion {
     this.modes.begin(numbers.parameters);
     const course = new Course(this.live, this.modes, numbers.duration);
-    course.run(numbers.start);
+    course.run(numbers);
     return this.sampled(course, frames);
+  }
+
+  /** Take the parameters of a motion. */
+  begin(parameters: number[]): void {
+    this.modes.begin(parameters);
+  }
+
+  /** The mode from whose coordinates and speeds a hand lets motions begin: flight, where there are several. */
+  get widest(): number {
+    return this.live.contact === null ? 0 : this.modes.flight(false);
+  }
+
+  /** The coordinates and speeds of the widest mode in a motion at an instant. */
+  takenAt(numbers: Numbers, time: number): number[] {
+    const isOnly = this.live.contact === null;
+    if (!time && (isOnly || numbers.begin)) return numbers.begin ?? numbers.start;
+    this.begin(numbers.parameters);
+    const { mode, state } = time ? this.reached(numbers, time) : this.modes.initial(numbers.start);
+    if (isOnly) return state.slice(0, this.live.start.length);
+    const { coordinates, speeds } = this.modes.shared(mode, state, time);
+    return [...coordinates, ...speeds];
+  }
+
+  private reached(numbers: Numbers, time: number): { mode: number; state: number[] } {
+    const course = new Course(this.live, this.modes, time);
+    course.run(numbers);
+    const { mode, steps, start } = course.stretches[course.stretches.length - 1];
+    const step = steps[steps.length - 1];
+    return { mode, state: step ? Array.from(step.at((course.end - step.begin) / step.length)) : start };
+  }
+
+  /** What the sliders of the start show for coordinates and speeds of the widest mode. */
+  startOf(begin: number[]): number[] {
+    if (this.live.contact === null) return begin;
+    const { mode, state } = this.modes.resumed(begin);
+    const values = new Float64Array(this.live.outputs);
+    this.modes.viewer(mode).valuesAt(state, 0, values, 0, values.length);
+    return this.live.states.map((output) => values[output]);
+  }
+
+  /** Outputs of the widest mode at coordinates and speeds of it. */
+  outputsAt(begin: number[]): Float64Array {
+    const { widest } = this;
+    const viewer = this.modes.viewer(widest);
+    const values = new Float64Array(viewer.data.outputs.length);
+    viewer.valuesAt(this.modes.whole(widest, begin, 0), 0, values);
+    return values;
   }
 
   /** Outputs of the first mode at values of two states, for the parameters of the last motion; row by row. */
@@ -159,9 +206,10 @@ class Course {
     private readonly duration: number,
   ) {}
 
-  run(start: number[]): void {
+  run({ start, begin }: Numbers): void {
     const changes = this.live.contact !== null;
-    let entry: Entry | null = changes ? this.modes.initial(start) : this.only(start);
+    const first = (): Entry => (begin ? this.modes.resumed(begin) : this.modes.initial(start));
+    let entry: Entry | null = changes ? first() : this.only(start);
     while (entry) entry = this.through(entry, changes);
   }
 

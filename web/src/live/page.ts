@@ -9,17 +9,21 @@ import { footer, heading, judgements, sections, warning } from "../text";
 import { Computer } from "./computer";
 import type { Answer } from "./answer";
 import { Grips } from "./grips";
+import type { Hand, Handled } from "./hand";
+import { type Handling, Hands } from "./hands";
 import { type Chosen, read, unchanged, written } from "./link";
 import type { LiveData, Numbers } from "./model";
 import type { Ending } from "./motion";
+import { ANGLES } from "./units";
 
 const QUICK = 601; // frames while a slider moves
 const SETTLED = 180; // ms after the last change, when all frames are computed
 const ROWS = 2001; // of a table
 const LONGEST = 3600; // s
+const LEFT = "The motion starts as the body was let go; a slider of the start begins another one.";
 const SAME = 1e-6; // of a duration
 
-export class LivePage {
+export class LivePage implements Handling {
   private readonly player = new Player();
   private readonly panel = make("section", { class: "panel live", "aria-label": "Numbers" });
   private readonly message = make("p", { class: "message", role: "status" });
@@ -33,6 +37,7 @@ export class LivePage {
   private busy = false;
   private wanted = 0; // frames of the next motion to compute; none is waiting at 0
   private settling = 0;
+  private rewinds = false; // whether the next motion is shown from its start
 
   constructor(
     private readonly scene: SceneData,
@@ -45,6 +50,7 @@ export class LivePage {
     document.body.append(make("main", {}, heading(scene), show, this.words), footer(scene));
     this.furnish();
     new Grips(this.player, (name, value) => this.grip(name, value));
+    new Hands(this.player, this);
   }
 
   async open(): Promise<void> {
@@ -132,6 +138,7 @@ export class LivePage {
 
   private changed(kind: "parameters" | "start", name: string, text: string): void {
     this.chosen[kind].set(name, text);
+    if (kind === "start") this.chosen.begin = null;
     this.forget();
     this.request();
   }
@@ -139,6 +146,32 @@ export class LivePage {
   /** Set the start by what is dragged in the picture. */
   private grip(name: string, value: number): void {
     this.sliders.find((slider) => slider.name === name)?.set(value);
+  }
+
+  // -- hands --------------------------------------------------------------------------------------
+
+  get isTimed(): boolean {
+    return this.live.timed || this.live.schedule.times.length > 0;
+  }
+
+  handle(numbers: Numbers, hand: Hand): Promise<Handled> {
+    if (!this.computer) throw new Error("This page may not compute here.");
+    return this.computer.handle(numbers, hand);
+  }
+
+  release(): void {
+    this.play(this.shown);
+  }
+
+  restart({ start, begin }: Handled): void {
+    this.live.start.forEach(({ name }, i) => {
+      const slider = this.sliders.find((one) => one.name === name);
+      if (slider) this.chosen.start.set(name, slider.put(start[i]));
+    });
+    this.chosen.begin = begin;
+    this.rewinds = true;
+    this.forget();
+    this.request();
   }
 
   /** The motion is no longer the one that was chosen by its question. */
@@ -158,7 +191,7 @@ export class LivePage {
   }
 
   /** All numbers in SI units. Throws, in words, where one cannot be used. */
-  private numbers(): Numbers {
+  numbers(): Numbers {
     const { live, chosen } = this;
     const values = (kind: "parameters" | "start"): number[] => {
       const controls = live[kind];
@@ -166,7 +199,11 @@ export class LivePage {
       if (unknown) throw new Error(`${live.system} has no ${kind === "start" ? "coordinate or speed" : "parameter"} ${unknown}.`);
       return controls.map((control) => valueOf(control, chosen[kind].get(control.name)));
     };
-    return { parameters: values("parameters"), start: values("start"), duration: durationOf(chosen.duration, live.duration, live.schedule.times.length ? live.duration : LONGEST) };
+    const { contact, modes } = live;
+    const widest = modes.find(({ phase, beyond }) => phase === "flight" && !beyond);
+    const count = contact === null || !widest ? 0 : widest.coordinates.length + widest.speeds.length;
+    if (chosen.begin && (chosen.begin.length !== count || !chosen.begin.every(Number.isFinite))) throw new Error("The link begins with numbers that do not fit this page.");
+    return { parameters: values("parameters"), start: values("start"), begin: chosen.begin, duration: durationOf(chosen.duration, live.duration, live.schedule.times.length ? live.duration : LONGEST) };
   }
 
   // -- motions ------------------------------------------------------------------------------------
@@ -208,10 +245,12 @@ export class LivePage {
     for (const slider of this.sliders) slider.wrong("");
     const { time } = this.chosen;
     const scene: SceneData = { ...this.scene, ...computed };
+    if (this.rewinds && this.player.clock) this.player.clock.time = 0; // not told: the motion before is not shown again
+    this.rewinds = false;
     this.play(scene);
     if (time) this.player.clock?.seek(time);
     this.chosen.time = 0;
-    this.say([end < duration ? this.ended(ending, end) : "", scene.doubt && warning(scene.doubt)].filter(Boolean).join(" "));
+    this.say([this.chosen.begin ? LEFT : "", end < duration ? this.ended(ending, end) : "", scene.doubt && warning(scene.doubt)].filter(Boolean).join(" "));
     this.tell(scene);
   }
 
@@ -263,7 +302,7 @@ export class LivePage {
     this.words.replaceChildren(...judgements(scene), ...rest);
   }
 
-  private say(text: string): void {
+  say(text: string): void {
     this.message.textContent = text;
   }
 
@@ -356,7 +395,6 @@ function shown(control: Control): Control {
 }
 
 const NUMBER = /^\s*([+\-−]?\d*\.?\d+(?:e[+-]?\d+)?)\s*(.*?)\s*$/i;
-const ANGLES: Record<string, number> = { rad: 1, deg: Math.PI / 180, turns: 2 * Math.PI };
 
 /** The value of a slider in SI units; untouched, the one that the page opens with, to the last digit. */
 function valueOf(control: Control, text: string | undefined): number {

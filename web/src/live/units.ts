@@ -20,6 +20,9 @@ const PREFIXES: [number, number, string][] = [
 ];
 const TURN = 2 * Math.PI;
 
+/** Units of angles, in rad. */
+export const ANGLES: Record<string, number> = { rad: 1, deg: TURN / 360, turns: TURN };
+
 export function scaleFor(unit: string, largest: number): Scale {
   if (unit === "rad") return largest > 5 * TURN ? { unit: "turns", factor: 1 / TURN } : { unit: "deg", factor: 360 / TURN };
   if (!unit || unit.startsWith("kg") || (unit.startsWith("rad") && largest >= 1)) return { unit, factor: 1 };
