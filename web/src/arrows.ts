@@ -1,17 +1,10 @@
 // Arrows: solid where visible, faint where a body hides them.
 
 import { ConeGeometry, CylinderGeometry, Group, Mesh, MeshBasicMaterial, Quaternion, Vector3 } from "three";
+import { colourOf } from "./family";
 import { Letter, type Letters } from "./letters";
 import type { Pose } from "./pose";
 import { type ArrowData, type ArrowKind, Rows } from "./scene";
-
-export const COLOURS: Record<ArrowKind, string> = {
-  force: "#d55e00",
-  load: "#8a6d00",
-  torque: "#a8518f",
-  omega: "#009e73",
-  momentum: "#0072b2",
-};
 
 /** Letters of vectors for which a model has none of its own. */
 const LETTERS: Partial<Record<ArrowKind, string>> = {
@@ -47,7 +40,7 @@ export function arrowObject(kind: ArrowKind, thick: number): Group {
   const group = new Group();
   for (const [depthTest, opacity, order] of [[true, 1, 20], [false, 0.62, 19]] as const) {
     const material = new MeshBasicMaterial({
-      color: COLOURS[kind],
+      color: colourOf(kind, false),
       transparent: true,
       depthTest,
       depthWrite: depthTest,
@@ -59,6 +52,11 @@ export function arrowObject(kind: ArrowKind, thick: number): Group {
     group.add(shaft, head);
   }
   return group;
+}
+
+/** Give an arrow its colour by day or by night. */
+export function dye(group: Group, kind: ArrowKind, dark: boolean): void {
+  for (const part of group.children) ((part as Mesh).material as MeshBasicMaterial).color.set(colourOf(kind, dark));
 }
 
 /** Give an arrow this vector in the laboratory, and tell whether it is long enough to be seen. */

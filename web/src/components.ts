@@ -1,7 +1,8 @@
 // The parts of a contact force: normal force, friction, and the cone that friction keeps it in.
 
 import { ConeGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, Quaternion, Vector3 } from "three";
-import { type Arrow, arrowObject, COLOURS, stretch } from "./arrows";
+import { type Arrow, arrowObject, dye, stretch } from "./arrows";
+import { colourOf } from "./family";
 import { Letter, type Letters } from "./letters";
 import { Rows } from "./scene";
 
@@ -61,11 +62,16 @@ export class Components {
     this.cone.quaternion.copy(this.turn.setFromUnitVectors(UP, up));
     this.cone.scale.setScalar(Math.max(pressing, 1e-9));
   }
+
+  theme(dark: boolean): void {
+    for (const part of this.parts) dye(part, "force", dark);
+    (this.cone?.material as MeshBasicMaterial | undefined)?.color.set(colourOf("force", dark));
+  }
 }
 
 /** The directions of a force that friction allows, for a normal force of unit length. */
 function coneOf(friction: number): Mesh {
-  const material = new MeshBasicMaterial({ color: COLOURS.force, transparent: true, opacity: 0.16, depthWrite: false, side: DoubleSide });
+  const material = new MeshBasicMaterial({ color: colourOf("force", false), transparent: true, opacity: 0.16, depthWrite: false, side: DoubleSide });
   const cone = new Mesh(new ConeGeometry(friction, 1, 64, 1, true).rotateX(Math.PI).translate(0, 0.5, 0), material);
   cone.renderOrder = 13;
   return cone;

@@ -1,7 +1,6 @@
 // Play, pause, speed, slider, arrows, and the keys that do the same.
 
 import type { Extra } from "./annotations";
-import { COLOURS } from "./arrows";
 import { type Clock, rates } from "./clock";
 import { digits, formula, make } from "./dom";
 import type { ArrowKind } from "./scene";
@@ -104,7 +103,7 @@ function arrowSwitch(kind: ArrowKind, stage: Stage, clock: Clock): HTMLElement {
   const value = make("span", { class: "value" });
   const button = toggle("", stage.annotations.shows(kind), (shown) => stage.annotations.show(kind, shown));
   const dot = make("span", { class: "dot", "aria-hidden": "true" });
-  dot.style.background = COLOURS[kind];
+  dot.style.background = `var(--${kind})`;
   button.title = `${words}: ${own.map(({ data }) => data.name).join(", ")}`;
   const spoken = [words, about && `about the ${about}`].filter(Boolean).join(" ");
   button.append(dot, lettered(own) ?? make("i", {}, letter), make("span", { class: "spoken" }, ` ${spoken} `));

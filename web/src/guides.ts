@@ -1,6 +1,7 @@
 // Thin lines that explain the picture: axes with their names, and the arcs of angles.
 
 import { CircleGeometry, Curve, CylinderGeometry, DoubleSide, Group, Matrix4, Mesh, MeshBasicMaterial, Object3D, Plane, Quaternion, type Ray, TubeGeometry, Vector3 } from "three";
+import { colourOf } from "./family";
 import { AXES, GREEK } from "./triad";
 import { Letter, type Letters } from "./letters";
 import type { Pose } from "./pose";
@@ -13,7 +14,6 @@ const SPINS = 12; // turns during a motion beyond which an arc would only flicke
 const NEAR = 0.62; // radius of the first arc at a point that holds the body, against its size
 const AROUND = 1.12; // at its centre of mass
 const STEP = 0.13; // from one arc to the next
-const ARC = ["#b0206a", "#ff7db8"]; // by day and by night
 const EDGEWISE = 0.08; // sine of the angle between a plane and a line of sight below which they do not meet well
 const CLOSED = 0.02; // rad: a smaller angle is not drawn
 const LONG = 1.35; // of an axis of a body, against its size
@@ -104,7 +104,7 @@ export class AngleArcs extends Guide {
   }
 
   theme(dark: boolean): void {
-    for (const material of this.materials) material.color.set(ARC[dark ? 1 : 0]);
+    for (const material of this.materials) material.color.set(colourOf("angle", dark));
   }
 
   update(frame: number): void {
@@ -236,7 +236,7 @@ export class Axes extends Guide {
   }
 
   theme(dark: boolean): void {
-    this.materials.forEach((material, i) => material.color.set(AXES[dark ? 1 : 0][i % 3]));
+    this.materials.forEach((material, i) => material.color.set(colourOf(AXES[i % 3], dark)));
   }
 
   update(frame: number): void {

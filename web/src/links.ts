@@ -10,7 +10,8 @@ import {
   SphereGeometry,
   Vector3,
 } from "three";
-import { PALETTE, surface } from "./marks";
+import { MATERIALS } from "./family";
+import { surface } from "./marks";
 import { type LinkData, Rows } from "./scene";
 
 const TURNS = 11;
@@ -74,7 +75,7 @@ const turn = new Quaternion();
 
 /** A fixed point to which something is attached. */
 function anchor(place: Rows, radius: number): Mesh {
-  const knob = new Mesh(new SphereGeometry(radius, 24, 16), surface(PALETTE.dark));
+  const knob = new Mesh(new SphereGeometry(radius, 24, 16), surface(MATERIALS.dark));
   knob.position.fromArray(place.at(0, []));
   return knob;
 }
@@ -92,7 +93,7 @@ class Coil implements Stretched {
     this.geometry.setAttribute("position", this.place);
     this.geometry.setAttribute("normal", this.normal);
     this.geometry.setIndex(faces(rings));
-    const wire = new Mesh(this.geometry, surface(PALETTE.metal));
+    const wire = new Mesh(this.geometry, surface(MATERIALS.metal));
     wire.frustumCulled = false;
     this.object.add(wire);
   }
@@ -144,8 +145,8 @@ class Pot implements Stretched {
 
   constructor(radius: number, usual: number) {
     this.deep = POT * usual;
-    this.pot = new Mesh(upright(radius), surface(PALETTE.deep));
-    this.rod = new Mesh(upright(0.35 * radius), surface(PALETTE.light));
+    this.pot = new Mesh(upright(radius), surface(MATERIALS.deep));
+    this.rod = new Mesh(upright(0.35 * radius), surface(MATERIALS.light));
     this.object.add(this.pot, this.rod);
   }
 
@@ -160,7 +161,7 @@ class Cord implements Stretched {
   private readonly cord: Mesh;
 
   constructor(radius: number) {
-    this.cord = new Mesh(upright(radius), surface(PALETTE.dark));
+    this.cord = new Mesh(upright(radius), surface(MATERIALS.dark));
     this.object.add(this.cord);
   }
 

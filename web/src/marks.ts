@@ -1,15 +1,7 @@
 // Surfaces with marks, so that spin is visible.
 
 import { CanvasTexture, MeshLambertMaterial, SRGBColorSpace, type Texture } from "three";
-
-export const PALETTE = {
-  light: "#f3e9d2",
-  blue: "#2f6f9f",
-  deep: "#1d4a6d",
-  accent: "#e0672b",
-  metal: "#9aa3ad",
-  dark: "#5b636d",
-};
+import { MATERIALS } from "./family";
 
 /** Painted once and then shared. */
 function kept(paint: () => Texture): () => Texture {
@@ -36,20 +28,20 @@ export const sectors = kept(() => {
   return painted(size, size, (pen) => {
     const middle = size / 2;
     for (let i = 0; i < count; i++) {
-      pen.fillStyle = i === 0 ? PALETTE.accent : i % 2 ? PALETTE.blue : PALETTE.light;
+      pen.fillStyle = i === 0 ? MATERIALS.accent : i % 2 ? MATERIALS.blue : MATERIALS.light;
       pen.beginPath();
       pen.moveTo(middle, middle);
       const begin = (2 * Math.PI * (i - 0.5)) / count;
       pen.arc(middle, middle, size, begin, begin + (2 * Math.PI) / count);
       pen.fill();
     }
-    ring(pen, middle, 0.965, PALETTE.deep, 0.06);
-    ring(pen, middle, 0.2, PALETTE.deep, 0.03);
-    pen.fillStyle = PALETTE.light;
+    ring(pen, middle, 0.965, MATERIALS.deep, 0.06);
+    ring(pen, middle, 0.2, MATERIALS.deep, 0.03);
+    pen.fillStyle = MATERIALS.light;
     pen.beginPath();
     pen.arc(middle, middle, middle * 0.185, 0, 7);
     pen.fill();
-    pen.fillStyle = PALETTE.deep;
+    pen.fillStyle = MATERIALS.deep;
     pen.beginPath();
     pen.arc(middle, middle, middle * 0.04, 0, 7);
     pen.fill();
@@ -68,7 +60,7 @@ function ring(pen: CanvasRenderingContext2D, middle: number, at: number, colour:
 export const edge = kept(() =>
   painted(1200, 8, (pen) => {
     for (let i = 0; i < 12; i++) {
-      pen.fillStyle = i === 0 ? PALETTE.accent : i % 2 ? PALETTE.deep : PALETTE.metal;
+      pen.fillStyle = i === 0 ? MATERIALS.accent : i % 2 ? MATERIALS.deep : MATERIALS.metal;
       pen.fillRect(i * 100, 0, 100, 8);
     }
   }),
@@ -79,14 +71,14 @@ export const panels = kept(() =>
   painted(1024, 512, (pen) => {
     for (let i = 0; i < 8; i++) {
       for (let j = 0; j < 4; j++) {
-        pen.fillStyle = (i + j) % 2 ? PALETTE.blue : PALETTE.light;
+        pen.fillStyle = (i + j) % 2 ? MATERIALS.blue : MATERIALS.light;
         pen.fillRect(i * 128, j * 128, 128, 128);
       }
     }
-    pen.fillStyle = PALETTE.accent;
+    pen.fillStyle = MATERIALS.accent;
     pen.fillRect(0, 0, 1024, 52);
     pen.fillRect(0, 128, 128, 128);
-    pen.fillStyle = PALETTE.deep;
+    pen.fillStyle = MATERIALS.deep;
     pen.fillRect(0, 460, 1024, 52);
     pen.fillRect(0, 252, 1024, 8);
   }),

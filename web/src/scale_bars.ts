@@ -1,7 +1,7 @@
 // How long arrows are: a bar for a round value of each quantity whose arrows are shown.
 
 import { type PerspectiveCamera, Vector3 } from "three";
-import { type Arrow, COLOURS } from "./arrows";
+import type { Arrow } from "./arrows";
 import { digits, make } from "./dom";
 
 const LONGEST = 76; // pixels
@@ -42,7 +42,7 @@ class Bar {
     const each = shown.scale * shown.group.scale.x * pixels; // pixels for one of the unit
     const value = round(LONGEST / each);
     this.line.style.width = `${(value * each).toFixed(1)}px`;
-    this.line.style.background = COLOURS[shown.data.kind];
+    this.line.style.background = `var(--${shown.data.kind})`;
     this.value.textContent = `${digits(value)} ${this.unit}`;
   }
 }

@@ -16,7 +16,8 @@ import {
   Vector2,
   Vector3,
 } from "three";
-import { edge, marked, PALETTE, panels, sectors, surface } from "./marks";
+import { MATERIALS } from "./family";
+import { edge, marked, panels, sectors, surface } from "./marks";
 import { reach } from "./reach";
 import type { BodyData, JointData, ShapeData, Triple } from "./scene";
 
@@ -101,7 +102,7 @@ function hoop([radius, height]: number[]): Object3D {
   const tube = rim(radius, height);
   const count = 12;
   for (let i = 0; i < count; i++) {
-    const colour = i === 0 ? PALETTE.accent : i % 2 ? PALETTE.blue : PALETTE.light;
+    const colour = i === 0 ? MATERIALS.accent : i % 2 ? MATERIALS.blue : MATERIALS.light;
     const arc = mesh(new TorusGeometry(radius - tube, tube, 16, 10, (2 * Math.PI) / count), surface(colour));
     arc.rotation.z = (2 * Math.PI * i) / count;
     group.add(arc);
@@ -118,21 +119,21 @@ function wheel([radius, height]: number[]): Object3D {
   const thin = 0.028 * radius;
   const long = radius - rim(radius, height);
   for (let i = 0; i < 6; i++) {
-    const spoke = mesh(new CylinderGeometry(thin, thin, long, 12), surface(i ? PALETTE.metal : PALETTE.accent));
+    const spoke = mesh(new CylinderGeometry(thin, thin, long, 12), surface(i ? MATERIALS.metal : MATERIALS.accent));
     spoke.geometry.translate(0, long / 2, 0);
     spoke.rotation.z = (Math.PI * i) / 3;
     group.add(spoke);
   }
-  group.add(upright(0.12 * radius, 0.2 * radius, surface(PALETTE.deep)));
-  group.add(upright(0.04 * radius, 1.3 * radius, surface(PALETTE.dark)));
+  group.add(upright(0.12 * radius, 0.2 * radius, surface(MATERIALS.deep)));
+  group.add(upright(0.04 * radius, 1.3 * radius, surface(MATERIALS.dark)));
   return group;
 }
 
 function rod([length, radius]: number[]): Object3D {
   const group = new Group();
-  group.add(upright(radius, length, surface(PALETTE.blue)));
+  group.add(upright(radius, length, surface(MATERIALS.blue)));
   for (const side of [-1, 1]) {
-    const end = mesh(new SphereGeometry(1.7 * radius, 24, 16), surface(side > 0 ? PALETTE.accent : PALETTE.light));
+    const end = mesh(new SphereGeometry(1.7 * radius, 24, 16), surface(side > 0 ? MATERIALS.accent : MATERIALS.light));
     end.position.z = (side * length) / 2;
     group.add(end);
   }
@@ -140,7 +141,7 @@ function rod([length, radius]: number[]): Object3D {
 }
 
 function box([long, wide, thick]: number[]): Object3D {
-  const colours = [PALETTE.blue, PALETTE.blue, PALETTE.light, PALETTE.deep, PALETTE.accent, PALETTE.metal];
+  const colours = [MATERIALS.blue, MATERIALS.blue, MATERIALS.light, MATERIALS.deep, MATERIALS.accent, MATERIALS.metal];
   return mesh(new BoxGeometry(wide, thick, long), colours.map((colour) => surface(colour)));
 }
 
@@ -148,19 +149,19 @@ function racquet([length, width, thick]: number[]): Object3D {
   const group = new Group();
   const head = 0.27 * length;
   const middle = 0.5 * length - head;
-  const frame = mesh(new TorusGeometry(1, 0.07, 16, 72), surface(PALETTE.deep));
+  const frame = mesh(new TorusGeometry(1, 0.07, 16, 72), surface(MATERIALS.deep));
   frame.rotation.x = Math.PI / 2;
   frame.scale.set(width / 2, head, width / 2);
   frame.position.z = middle;
   group.add(frame);
   for (const side of [-1, 1]) {
-    const strings = mesh(new CylinderGeometry(1, 1, 0.02, 72), surface(side > 0 ? PALETTE.accent : PALETTE.light));
+    const strings = mesh(new CylinderGeometry(1, 1, 0.02, 72), surface(side > 0 ? MATERIALS.accent : MATERIALS.light));
     strings.scale.set(width / 2, thick, head);
     strings.position.set(0, side * 0.012 * width, middle);
     group.add(strings);
   }
   const handle = 0.5 * length + middle - head;
-  const grip = upright(1.3 * thick, handle, surface(PALETTE.blue));
+  const grip = upright(1.3 * thick, handle, surface(MATERIALS.blue));
   grip.position.z = handle / 2 - 0.5 * length;
   group.add(grip);
   return group;
@@ -168,7 +169,7 @@ function racquet([length, width, thick]: number[]): Object3D {
 
 function axle(arm: Triple, thick: number): Object3D {
   const length = Math.hypot(...arm);
-  const rodMesh = mesh(new CylinderGeometry(thick, thick, length, 20), surface(PALETTE.metal));
+  const rodMesh = mesh(new CylinderGeometry(thick, thick, length, 20), surface(MATERIALS.metal));
   rodMesh.geometry.translate(0, length / 2, 0);
   rodMesh.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), new Vector3(...arm).normalize());
   return rodMesh;
@@ -176,16 +177,16 @@ function axle(arm: Triple, thick: number): Object3D {
 
 /** The joint on which a body turns, large enough to be visible; a pin lies along z. */
 const JOINTS: Record<string, (clear: number) => Object3D> = {
-  pivot: (clear) => mesh(new SphereGeometry(clear, 32, 24), surface(PALETTE.metal)),
+  pivot: (clear) => mesh(new SphereGeometry(clear, 32, 24), surface(MATERIALS.metal)),
   hinge: (clear) => pin(1.6 * clear, clear),
   universal: (clear) => pin(0.9 * clear, 1.5 * clear),
-  weld: (clear) => mesh(new BoxGeometry(2 * clear, 2 * clear, 2 * clear), surface(PALETTE.dark)),
+  weld: (clear) => mesh(new BoxGeometry(2 * clear, 2 * clear, 2 * clear), surface(MATERIALS.dark)),
 };
 
 /** A short cylinder with an eye at each end. */
 function pin(radius: number, half: number): Object3D {
   const group = new Group();
-  group.add(upright(0.6 * radius, 2.8 * half, surface(PALETTE.metal)), upright(radius, 1.9 * half, surface(PALETTE.dark)));
+  group.add(upright(0.6 * radius, 2.8 * half, surface(MATERIALS.metal)), upright(radius, 1.9 * half, surface(MATERIALS.dark)));
   return group;
 }
 
@@ -200,15 +201,15 @@ export function post(height: number, thick: number): Object3D {
   const geometry = new CylinderGeometry(0.25 * thick, 1.4 * thick, height, 32);
   geometry.rotateX(Math.PI / 2);
   geometry.translate(0, 0, -height / 2);
-  const cone = mesh(geometry, surface(PALETTE.dark));
+  const cone = mesh(geometry, surface(MATERIALS.dark));
   cone.castShadow = true;
   return cone;
 }
 
 export function bracket(thick: number): Object3D {
-  const plate = upright(2.4 * thick, 0.8 * thick, surface(PALETTE.dark));
+  const plate = upright(2.4 * thick, 0.8 * thick, surface(MATERIALS.dark));
   plate.position.z = 0.9 * thick;
-  plate.material = surface(PALETTE.dark);
+  plate.material = surface(MATERIALS.dark);
   (plate.material as Material).side = DoubleSide;
   const group = new Group();
   group.add(plate);

@@ -70,6 +70,22 @@ export class Slider {
     return this.field.value;
   }
 
+  /** Mark values in SI units on the slider, of which those that are not finite or out of its range are left out. */
+  tick(marks: { value: number; title: string }[]): void {
+    const seen = marks.filter(({ value }) => Number.isFinite(value) && value > 0);
+    const places = seen.map(({ value, title }) => ({ share: this.share(value / this.control.size), title }));
+    const within = places.filter(({ share }) => share >= 0 && share <= 1);
+    const ticks = within.map(({ share, title }) => {
+      const tick = make("span", { class: "tick", title });
+      tick.style.left = `${100 * share}%`;
+      return tick;
+    });
+    this.row.querySelector(".ticks")?.remove();
+    if (!ticks.length) return;
+    const told = make("span", { class: "spoken" }, within.map(({ title }) => title).join("; "));
+    this.row.append(make("span", { class: "ticks" }, ...ticks, told));
+  }
+
   get name(): string {
     return this.control.name;
   }

@@ -14,23 +14,13 @@ import {
   PlaneGeometry,
   RingGeometry,
 } from "three";
+import { colourOf, MATERIALS } from "./family";
 import { Ground } from "./ground";
-import { PALETTE } from "./marks";
 import { type Packed, Rows, type SupportData } from "./scene";
 
-interface Look {
-  ground: string;
-  paper: string;
-  lines: string;
-  strong: string;
-  accent: string;
-}
-
-type Colour = keyof Look;
+type Colour = "ground" | "paper" | "lines" | "strong" | "accent";
 type Point = [number, number];
 
-const LIGHT: Look = { ground: "#d9d6cd", paper: "#fbf6e6", lines: "#b3ae9f", strong: "#7f7a6b", accent: PALETTE.accent };
-const DARK: Look = { ground: "#2a2e36", paper: "#39404b", lines: "#4b525e", strong: "#7d8796", accent: PALETTE.accent };
 const MOST = 60; // lines to either side of the middle
 const PARTS = 32; // pieces of a line
 const MESH = 4; // points of a curved surface between two lines on it
@@ -47,7 +37,13 @@ export function surfaceOf({ kind, middle, reach, points }: SupportData, grid: nu
 
 /** Ground in the colours of the light or dark page. */
 export function paint(world: Object3D, dark: boolean): void {
-  const look = dark ? DARK : LIGHT;
+  const look: Record<Colour, string> = {
+    ground: colourOf("floor", dark),
+    paper: colourOf("paper", dark),
+    lines: colourOf("grid", dark),
+    strong: colourOf("grid-strong", dark),
+    accent: MATERIALS.accent,
+  };
   world.traverse((object) => {
     const colour = object.userData.colour as Colour | undefined;
     if (colour) ((object as Mesh).material as Ground | LineBasicMaterial | MeshLambertMaterial).color.set(look[colour]);

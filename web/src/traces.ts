@@ -3,14 +3,10 @@
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
+import { colourOf } from "./family";
 import { Rows, type TraceData } from "./scene";
 
-const COLOURS: Record<string, [string, string]> = {
-  contact: ["#c2410c", "#fb923c"],
-  centre: ["#2563a8", "#7cc0f5"],
-  axis: ["#7a3e93", "#d9a6ee"],
-  kept: ["#8a8f98", "#7f8794"],
-};
+const COLOURS = { contact: "path-contact", centre: "path-centre", axis: "path-axis", kept: "path-kept" } as const;
 
 export class Trace {
   readonly line: LineSegments2;
@@ -51,6 +47,6 @@ export class Trace {
   }
 
   theme(dark: boolean): void {
-    this.material.color.set((COLOURS[this.data.kind] ?? COLOURS.centre)[dark ? 1 : 0]);
+    this.material.color.set(colourOf(COLOURS[this.data.kind as keyof typeof COLOURS], dark));
   }
 }

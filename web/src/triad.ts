@@ -4,11 +4,8 @@ import { type Camera, Vector3 } from "three";
 
 const SIZE = 72;
 const LONG = 24;
-/** Colours of axes, by day and by night. */
-export const AXES = [
-  ["#b3400e", "#00755a", "#005f99"],
-  ["#f58a4b", "#35c79b", "#62b5ec"],
-];
+/** Colours of axes. */
+export const AXES = ["series-1", "series-2", "series-0"] as const;
 
 export class Triad {
   readonly element = svg("svg", { viewBox: `${-SIZE / 2} ${-SIZE / 2} ${SIZE} ${SIZE}`, class: "triad", "aria-hidden": "true" });
@@ -17,8 +14,8 @@ export class Triad {
 
   constructor(directions: string[]) {
     this.axes = directions.map((direction, i) => {
-      const line = svg("line", { stroke: AXES[0][i % 3], "stroke-width": "2", "stroke-linecap": "round" });
-      const name = svg("text", { fill: AXES[0][i % 3], "text-anchor": "middle", "dominant-baseline": "central" });
+      const line = svg("line", { stroke: `var(--${AXES[i % 3]})`, "stroke-width": "2", "stroke-linecap": "round" });
+      const name = svg("text", { fill: `var(--${AXES[i % 3]})`, "text-anchor": "middle", "dominant-baseline": "central" });
       name.textContent = GREEK[direction] ?? direction;
       this.element.append(line, name);
       return { line, name };

@@ -28,6 +28,10 @@ from polhode.base._errors import exit_code as exit_code
 from polhode.base._errors import extra as extra
 from polhode.base._errors import look_up as look_up
 from polhode.base._extrapolation import integrated as integrated
+from polhode.base._family import colour as colour
+from polhode.base._family import colours as colours
+from polhode.base._family import family_style as family_style
+from polhode.base._family import series_colours as series_colours
 from polhode.base._files import read_at_most as read_at_most
 from polhode.base._files import read_whole as read_whole
 from polhode.base._files import write_whole as write_whole

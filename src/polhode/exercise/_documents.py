@@ -27,7 +27,7 @@ from polhode.solution import (
     tikz_colours,
     words_tex,
 )
-from polhode.view import Markup, document, math_fonts, tag, typeset
+from polhode.view import Markup, document, styled, tag, typeset
 
 _PREAMBLE = TEX_PREAMBLE + r"\setlength{\parindent}{0pt}\setlength{\parskip}{6pt}"
 
@@ -200,7 +200,7 @@ def page_of_exercise(
     made = json.dumps({**provenance(seed), "systems": list(systems)})
     data = tag("meta", name="polhode", content=made)
     body = tag("main", *map(_html, blocks))
-    return document(title, f"{math_fonts()}\n{style}", body, head=(data,))
+    return document(title, styled(style), body, head=(data,))
 
 
 def _html(block: SheetBlock) -> Markup:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
-from polhode.base import StoreError
+from polhode.base import StoreError, family_style
 
 PAGE: Mapping[str, str] = {
     "lab.js": "text/javascript; charset=utf-8",
@@ -44,8 +44,9 @@ def built(name: str) -> str:
     view = files("polhode").joinpath("view")
     try:
         text = view.joinpath("built", name).read_text("utf-8")
-        fonts = view.joinpath("math.css").read_text("utf-8") if name.endswith(".css") else ""
-        return fonts + text
+        if not name.endswith(".css"):
+            return text
+        return view.joinpath("math.css").read_text("utf-8") + family_style() + text
     except OSError as error:
         raise StoreError(
             f"the front end of the lab is missing ({name})",

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from html import escape
 
-from polhode.base import extra
+from polhode.base import colours, extra
 
 Flat = tuple[float, float]
 
@@ -55,23 +55,25 @@ class Pen:
     is_dashed: bool = False
 
 
-_GREY, _RED, _GREEN, _BROWN, _VIOLET = "#808080", "#cf3a2e", "#21914d", "#b9601f", "#8a5cc7"
+_GREY, _FORCE, _ANGLE, _LENGTH, _TURN, _BODY = (
+    colours("anywhere")[name] for name in ("grey", "force", "angle", "length", "turn", "body")
+)
 PENS: dict[str, Pen] = {
     "support": Pen(_GREY, 0.8, _GREY, 0.16),
     "paper": Pen(_GREY, 1.0, "#ffffff", 0.85),
     "wall": Pen(_GREY, 2.2),
-    "body": Pen("", 1.5, "#6a8fc4", 0.34),
+    "body": Pen("", 1.5, _BODY, 0.34),
     "rod": Pen("", 2.6),
     "dot": Pen("", 1.0, "ink", 1.0),
     "pin": Pen("", 1.4, "#ffffff", 1.0),
     "fixed": Pen(_GREY, 1.3),
     "axis": Pen("", 1.3),
     "dashed": Pen(_GREY, 1.0, is_dashed=True),
-    "angle": Pen(_BROWN, 1.3),
-    "force": Pen(_RED, 2.0),
-    "arm": Pen(_GREEN, 1.6),
-    "length": Pen(_GREEN, 1.0),
-    "turn": Pen(_VIOLET, 1.6),
+    "angle": Pen(_ANGLE, 1.3),
+    "force": Pen(_FORCE, 2.0),
+    "arm": Pen(_LENGTH, 1.6),
+    "length": Pen(_LENGTH, 1.0),
+    "turn": Pen(_TURN, 1.6),
 }
 _BOLD = {"axis", "force", "arm"}
 _LETTER = 17.0  # pixels

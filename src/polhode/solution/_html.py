@@ -16,6 +16,7 @@ from polhode.view import (
     html_of,
     joined,
     math_fonts,
+    styled,
     tag,
     typeset_in_pieces,
     words_with_formulas,
@@ -45,7 +46,7 @@ def _(thing: Solution) -> str:
 
 
 def _style() -> str:
-    return f"{math_fonts()}\n{_own_style()}"
+    return styled(_own_style())
 
 
 def _own_style() -> str:

@@ -10,7 +10,7 @@ from polhode.base import installed_version, provenance
 from polhode.tour._claims import JudgedClaim, counted, verdicts
 from polhode.tour._sections import problem_of, section, summary
 from polhode.tour._work import Worked
-from polhode.view import Markup, document, json_element, math_fonts, tag
+from polhode.view import Markup, document, json_element, styled, tag
 
 FIGURES = "figures"
 CARD = (480, 300)
@@ -98,7 +98,7 @@ def problem_page(problem: Problem, all_problems: Sequence[Problem]) -> str:
 
 def _page(title: str, body: Iterable[Markup]) -> str:
     own = files("polhode.tour").joinpath("style.css").read_text("utf-8")
-    return document(title, f"{math_fonts()}\n{own}", *body)
+    return document(title, styled(own), *body)
 
 
 def _opening(all_problems: Sequence[Problem]) -> Iterator[Markup]:

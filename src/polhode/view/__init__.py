@@ -23,10 +23,10 @@ from polhode.view._mathml import leaf as leaf
 from polhode.view._mathml import math as math
 from polhode.view._mathml import math_fonts as math_fonts
 from polhode.view._mathml import opened_equation as opened_equation
+from polhode.view._mathml import styled as styled
 from polhode.view._mathml import typeset as typeset
 from polhode.view._mathml import typeset_change as typeset_change
 from polhode.view._mathml import typeset_in_pieces as typeset_in_pieces
-from polhode.view._mathml import with_palette as with_palette
 from polhode.view._mathml import words_with_formulas as words_with_formulas
 from polhode.view._notebook import html_of as html_of
 from polhode.view._page import page as page

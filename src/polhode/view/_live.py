@@ -187,6 +187,7 @@ def live_document(
         },
         "contact": None if contact is None else contact.name,
         "law": {name: outputs.numbers([value])[0] for name, value in laws.items()},
+        "friction": _friction(laws, kernels),
         "radau": onset_collocation() if isinstance(contact, Coulomb) else None,
         "drawn": _drawn(run, shown, outputs, kernels),
     }
@@ -196,6 +197,13 @@ def live_document(
         for mode, expressions in zip(kernels.modes, outputs.expressions, strict=True)
     ]
     return document | {"code": kernel_code(), "outputs": shown_outputs, "modes": modes}
+
+
+def _friction(laws: Mapping[str, Expr], kernels: PageKernels) -> str:
+    """The parameter that bounds static friction; empty where none does by itself."""
+    limit = laws.get("mu_static", laws.get("mu"))
+    symbol = None if limit is None else limit.symbol
+    return symbol.published if symbol in kernels.chosen else ""
 
 
 def _is_timed(equations: Equations) -> bool:

@@ -15,6 +15,7 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 from polhode.algebra import Expr, mathml
+from polhode.base import family_style
 from polhode.view._html import Markup
 
 _NAMESPACE = "{http://www.w3.org/1998/Math/MathML}"
@@ -61,10 +62,14 @@ def math_fonts() -> str:
     return " ".join(re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL).split())
 
 
-def with_palette(style: str) -> str:
-    """The style of a page with verdicts behind the fonts of formulas and the colours."""
-    palette = (files("polhode.view") / "palette.css").read_text("utf-8")
-    return f"{math_fonts()}\n{palette}{style}"
+def styled(style: str, within: str = ":root") -> str:
+    """A style behind the fonts of formulas and the colours and sizes of all pages.
+
+    Args:
+        style: CSS.
+        within: the selector of what it is for.
+    """
+    return f"{math_fonts()}\n{family_style(within)}{style}"
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from polhode.simulate import Trajectory
 from polhode.view._html import Markup, document, json_element, tag
 from polhode.view._judgement import Judgement
 from polhode.view._live import live_document
-from polhode.view._mathml import math_fonts
+from polhode.view._mathml import styled
 from polhode.view._packed import packed, packed_scene
 from polhode.view._quantities import Groups
 from polhode.view._scene import Scene
@@ -105,7 +105,7 @@ def page_of(shown: Scene, live: Mapping[str, Any] | None = None) -> str:
     licences = front_end("LICENSES.txt").replace("--", "- -")  # which would end the comment
     return document(
         shown.title,
-        math_fonts() + front_end("page.css"),
+        styled(front_end("page.css")),
         tag("noscript", tag("p", "This page needs its script to play a motion; please allow it.")),
         scene_element(shown),
         *([json_element("live", packed({"live": live, "worker": worker}))] if live else []),

@@ -68,7 +68,7 @@ function rows(lines: MarkedLine[]): HTMLElement[] {
 function row(line: MarkedLine): HTMLElement {
   const { correction, counterexample } = line;
   const sign = make("span", { "aria-hidden": "true" }, line.sign);
-  const badge = make("span", { class: `badge ${KINDS[line.mark] ?? "unread"}` }, sign, ` ${line.title}`);
+  const badge = make("span", { class: `verdict ${KINDS[line.mark] ?? "unread"}` }, sign, ` ${line.title}`);
   const final = line.final ? [make("span", { class: "long" }, "final answer")] : [];
   const head = make("p", {}, badge, " ", make("span", { class: "long" }, `line ${line.line}`), " ", ...final);
   const said = line.mark === "true" ? [] : [make("p", {}, line.told)];

@@ -81,7 +81,7 @@ function valued(title: string, values: Valued[]): HTMLElement[] {
 }
 
 export function badge(text: string, kind: string): HTMLElement {
-  return make("strong", { class: `badge ${kind}` }, text);
+  return make("strong", { class: `verdict ${kind}` }, text);
 }
 
 export function invariants({ invariants: found }: Standing): HTMLElement[] {

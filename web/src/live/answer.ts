@@ -11,6 +11,8 @@ export interface Answer {
   ending: Ending;
   computed: Computed | null;
   table: string;
+  /** Coefficients of friction at the start and at most, of a motion that needs them to roll throughout. */
+  needed?: [number, number] | null;
 }
 
 /** The answer, or the reason why there is none. */
@@ -28,7 +30,7 @@ function answered(engine: Engine, live: LiveData, { numbers, frames, table }: Re
   const { end, ending } = motion;
   if (!end) return { end, ending, computed: null, table: "" };
   if (table) return { end, ending, computed: null, table: tableOf(live, motion) };
-  return { end, ending, computed: pictured(live, engine, motion), table: "" };
+  return { end, ending, computed: pictured(live, engine, motion), table: "", needed: motion.needed };
 }
 
 /** Time, coordinates, speeds and plotted quantities in SI units, with all digits, as CSV. */

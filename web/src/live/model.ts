@@ -151,6 +151,8 @@ export interface LiveData {
   /** Name of the contact by whose rules modes follow each other; null where there is one mode only. */
   contact: string | null;
   law: Record<string, number>;
+  /** The parameter that bounds static friction; empty where none does by itself. */
+  friction: string;
   radau: RadauData | null;
   drawn: Drawn;
   code: string;

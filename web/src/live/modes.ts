@@ -368,6 +368,12 @@ export class Modes {
     return true;
   }
 
+  /** How much friction a contact needs that rolls, against its normal force. */
+  friction(mode: number, state: Vector, time: number): number {
+    const [x, y, normal] = this.joined(mode, "forces", state, time);
+    return Math.hypot(x, y) / normal;
+  }
+
   /** The determinant of the mass matrix of sliding, over that for both directions of slip; sliding jams where it is not positive. */
   freedom(mode: number, state: Vector, time: number): number {
     const { slips } = this.data(mode);

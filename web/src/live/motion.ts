@@ -62,6 +62,8 @@ export class Motion {
     readonly frames: number,
     /** All outputs at one instant after the other. */
     readonly values: Float64Array,
+    /** Friction over normal force, at the start and at most, of a motion that rolls throughout. */
+    readonly needed: [number, number] | null = null,
   ) {
     this.width = values.length / frames;
   }
@@ -175,6 +177,8 @@ export class Engine {
     const { stretches, end } = course;
     const width = this.live.outputs;
     const values = new Float64Array(frames * width);
+    const rolls = this.live.friction !== "" && stretches.every(({ mode }) => this.live.modes[mode].phase === "rolling");
+    const ratios: number[] = [];
     let [stretch, step, held] = [0, 0, -1];
     for (let i = 0; i < frames; i++) {
       const time = frames > 1 ? (i / (frames - 1)) * end : 0;
@@ -185,8 +189,10 @@ export class Engine {
       while (step + 1 < steps.length && time >= steps[step + 1].begin) step += 1;
       const now = steps.length ? steps[step].at((time - steps[step].begin) / steps[step].length) : start;
       this.modes.viewer(mode).valuesAt(now, time, values, i * width, width);
+      if (rolls) ratios.push(this.modes.friction(mode, Array.from(now), time));
     }
-    return new Motion(end, course.ending, course.happenings, course.spans((mode) => this.live.modes[mode].name), course.steps, frames, values);
+    const needed: [number, number] | null = rolls ? [ratios[0], Math.max(...ratios)] : null;
+    return new Motion(end, course.ending, course.happenings, course.spans((mode) => this.live.modes[mode].name), course.steps, frames, values, needed);
   }
 }
 

@@ -36,6 +36,7 @@ export class LivePage implements Handling {
   private kept: TraceData[] = []; // paths of another motion
   private busy = false;
   private wanted = 0; // frames of the next motion to compute; none is waiting at 0
+  private ticks = { others: "", needed: [NaN, NaN] };
   private settling = 0;
   private rewinds = false; // whether the next motion is shown from its start
 
@@ -235,7 +236,9 @@ export class LivePage implements Handling {
     this.panel.removeAttribute("aria-busy");
   }
 
-  private show({ computed, end, ending }: Answer, { duration }: Numbers): void {
+  private show({ computed, end, ending, needed }: Answer, numbers: Numbers): void {
+    const { duration } = numbers;
+    this.tick(needed ?? null, numbers);
     if (!computed) {
       this.refuse(this.ended(ending, 0));
       return;
@@ -252,6 +255,19 @@ export class LivePage implements Handling {
     this.chosen.time = 0;
     this.say([this.chosen.begin ? LEFT : "", end < duration ? this.ended(ending, end) : "", scene.doubt && warning(scene.doubt)].filter(Boolean).join(" "));
     this.tell(scene);
+  }
+
+  /** Mark on the slider of friction how much this start needs to roll; that stays while nothing else changes. */
+  private tick(needed: [number, number] | null, numbers: Numbers): void {
+    const { friction, parameters } = this.live;
+    const slider = this.sliders.find(({ name }) => name === friction);
+    const others = JSON.stringify({ ...numbers, parameters: numbers.parameters.filter((_, i) => parameters[i].name !== friction) });
+    if (needed) this.ticks = { others, needed };
+    const [least, most] = this.ticks.others === others ? this.ticks.needed : [NaN, NaN];
+    slider?.tick([
+      { value: least, title: `${digits(least, 3)}: with less, it slips at once` },
+      { value: most, title: `${digits(most, 3)}: with less, it slips somewhere` },
+    ]);
   }
 
   /** Keep the paths of the motion that is shown, or drop those that were kept. */

@@ -18,7 +18,7 @@ from polhode.judge.output._evidence_html import (
     readings_html,
     residuals_html,
 )
-from polhode.view import Markup, document, html_of, joined, tag, with_palette
+from polhode.view import Markup, document, html_of, joined, styled, tag
 
 _WORDS = {
     Answer.HOLDS: "holds",
@@ -69,7 +69,7 @@ def _framed(*inner: str) -> Markup:
 
 
 def _style() -> str:
-    return with_palette((files("polhode.judge") / "audit.css").read_text("utf-8"))
+    return styled((files("polhode.judge") / "audit.css").read_text("utf-8"), ".audit")
 
 
 def _body(report: Report) -> tuple[Markup, Markup]:

@@ -34,8 +34,8 @@ from polhode.view import (
     joined,
     scene_button,
     scene_frame,
+    styled,
     tag,
-    with_palette,
 )
 
 _TOLD = {
@@ -103,7 +103,7 @@ def notebook_html(review: Review) -> Markup:
 
 def page_style() -> str:
     """The style of pages about reviews, with the fonts of formulas."""
-    return with_palette((files("polhode.judge") / "review.css").read_text("utf-8"))
+    return styled((files("polhode.judge") / "review.css").read_text("utf-8"), ".review")
 
 
 def file_names(review: Review) -> list[str]:
@@ -148,7 +148,7 @@ def final_html(review: Review) -> Iterator[Markup]:
 def badge(mark: Mark) -> Markup:
     """A mark as its sign and its words."""
     sign = tag("span", SIGNS[mark], aria_hidden="true", class_="sign")
-    return tag("span", sign, f" {TITLES[mark]}", class_=f"badge {mark.value}")
+    return tag("span", sign, f" {TITLES[mark]}", class_=f"verdict {mark.value}")
 
 
 def link(review: Review, line: ReviewedLine) -> Markup:

@@ -123,8 +123,9 @@ def resolved(
         scale = np.maximum(scale, largest)
         sizes = np.where(scale > 0, scale, 1.0)
         tails = np.abs(coefficients[:, :, -2:]) / sizes
-        # Times are rounded, and values with them by their slopes.
-        uncertain = np.abs(coefficients) @ _SLOPES * np.spacing(right) / (right - left)
+        # Times are rounded, and values with them by their slopes; a piece may have no length.
+        shares = np.spacing(right) / np.maximum(right - left, np.spacing(right))
+        uncertain = np.abs(coefficients) @ _SLOPES * shares
         if noise is not None:
             tails[noise > _ONLY_NOISE * sizes[:, 0, 0]] = 0.0
             uncertain = np.maximum(uncertain, noise[:, None])

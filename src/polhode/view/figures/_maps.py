@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from polhode.algebra import Expr, ExprLike, Symbol, arrays, as_symbol, compile_program, dimension_of
 from polhode.analyse import Stability, SteadyMotion, stability
-from polhode.base import PURE, DeclarationError, Dimension, Value, look_up, to_si
+from polhode.base import PURE, DeclarationError, Dimension, Value, colours, look_up, to_si
 from polhode.derive import Equations, is_angle
 from polhode.study import Found, Threshold
 from polhode.view._quantities import Array, Scale, label, largest, math, scale_for, si_unit
@@ -260,7 +260,7 @@ def _shades() -> Colormap:
     from matplotlib.colors import LinearSegmentedColormap
 
     return LinearSegmentedColormap.from_list(
-        "growth", ["#ffffff", SHADES[1], COLOURS[1], "#5a2400"]
+        "growth", ["#ffffff", SHADES[1], COLOURS[1], colours("figures")["deepest"]]
     )
 
 

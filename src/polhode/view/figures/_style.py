@@ -6,30 +6,19 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from polhode.base import extra
+from polhode.base import colour, colours, extra, series_colours
 
-#: Lines are told apart by colour (Okabe and Ito's, safe for the colour-blind) and by dashes.
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#a8518f")
+#: Lines are told apart by colour and by dashes.
+COLOURS = series_colours()
 DASHES: tuple[Any, ...] = ("-", (0, (5, 1.6)), (0, (1.3, 1.3)), (0, (6, 1.5, 1.3, 1.5)))
-SHADES = ("#9ecae8", "#f7c08a", "#a6dcc5", "#dcb8d2")
-INK = "#26282d"
-MUTED = "#6c7079"
-FAINT = "#dcdee3"
+SHADES = tuple(colours("figures")[f"shade-{i}"] for i in range(4))
+INK, MUTED, FAINT = (colour(name) for name in ("ink", "muted", "line"))
 
 WIDTH = 4.6
 """Width of a figure in inches, so that text is legible at the width of a phone."""
 
-_BACK = "#ffffff"
-_DARK = {
-    INK: "#dfe2e8",
-    MUTED: "#9aa0ab",
-    FAINT: "#3a3e47",
-    _BACK: "#16181d",
-    COLOURS[0]: "#62b5ec",
-    COLOURS[1]: "#f58a4b",
-    COLOURS[2]: "#35c79b",
-    COLOURS[3]: "#db92c8",
-}
+_SEEN = ("ink", "muted", "line", "card", *(f"series-{i}" for i in range(4)))
+_DARK = {colour(name): colour(name, dark=True) for name in _SEEN}
 
 RULES: Any = {
     "font.family": "STIXGeneral",

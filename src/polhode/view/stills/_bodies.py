@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from polhode.base import colours
 from polhode.view._quantities import Array
 from polhode.view._scene import BodyShape, Link, Scene, SceneBody, Triple
 from polhode.view.stills._camera import between, place_at, turn_at
@@ -25,8 +26,9 @@ from polhode.view.stills._mesh import (
     turned_to,
 )
 
-LIGHT, BLUE, DEEP, ACCENT, METAL = "#f3e9d2", "#2f6f9f", "#1d4a6d", "#e0672b", "#9aa3ad"
-_DARK = "#5b636d"
+LIGHT, BLUE, DEEP, ACCENT, METAL, DARK = (
+    colours("materials")[name] for name in ("light", "blue", "deep", "accent", "metal", "dark")
+)
 _SECTORS = 12
 _REMEMBERED = 32  # bodies: those of a movie are drawn again and again
 _PIECES = 8  # of a spoke
@@ -167,7 +169,7 @@ def links(scene: Scene, frame: float) -> list[Mesh]:
     """Springs, dampers and ropes, and the knobs at ends that are tied to a place."""
     drawn = [_LINKS[link.kind](link, frame) for link in scene.links]
     tied = [
-        _knob(1.5 * link.thick, _DARK).placed(np.eye(3), end[0])
+        _knob(1.5 * link.thick, DARK).placed(np.eye(3), end[0])
         for link in scene.links
         for end in (link.start, link.end)
         if len(end) == 1
@@ -193,7 +195,7 @@ _LINKS: dict[str, Callable[[Link, float], Mesh]] = {
     ),
     "damper": _damper,
     "rope": lambda link, frame: rod_between(
-        between(link.start, frame), between(link.end, frame), link.thick, _DARK
+        between(link.start, frame), between(link.end, frame), link.thick, DARK
     ),
 }
 
@@ -219,7 +221,7 @@ def _knob(radius: float, colour: str) -> Mesh:
 def _pin(radius: float, half: float, axis: Array) -> Mesh:
     """A short cylinder with an eye at either end."""
     parts = []
-    for share, length, colour in ((1.0, 0.95 * half, _DARK), (0.6, 1.4 * half, METAL)):
+    for share, length, colour in ((1.0, 0.95 * half, DARK), (0.6, 1.4 * half, METAL)):
         side = tube(share * radius, -length, length, colour, 24)
         ends = [cap(share * radius, end, colour) for end in (length, -length)]
         parts += [side, *ends]
@@ -230,5 +232,5 @@ _JOINTS: dict[str, Callable[[float, Array], Mesh]] = {
     "pivot": lambda clear, axis: _knob(clear, METAL),
     "hinge": lambda clear, axis: _pin(1.6 * clear, clear, axis),
     "universal": lambda clear, axis: _pin(0.9 * clear, 1.5 * clear, axis),
-    "weld": lambda clear, axis: box([2 * clear] * 3, [_DARK] * 6),
+    "weld": lambda clear, axis: box([2 * clear] * 3, [DARK] * 6),
 }

@@ -7,12 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from polhode.base import colour, colours
 from polhode.view._quantities import Array
 from polhode.view._scene import Scene, Support
 from polhode.view.stills._camera import place_at, turn_at
 from polhode.view.stills._mesh import Mesh, turned_to
 
-GROUND, PAPER, LINES, STRONG, ACCENT = "#e6e3da", "#fbf6e6", "#c4bfb1", "#7f7a6b", "#e0672b"
+# flat, where pages have light and shadow
+GROUND, LINES = (colours("stills")[name] for name in ("floor", "grid"))
+PAPER, STRONG, ACCENT = colour("paper"), colour("grid-strong"), colours("materials")["accent"]
 _ROUND = np.linspace(0, 2 * np.pi, 97)
 _MOST = 24  # lines to either side of the middle
 

@@ -7,30 +7,24 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from polhode.base import colour, colours
 from polhode.view._quantities import Array
 from polhode.view._scene import Arrow, Scene, Trace
 from polhode.view.figures import house_style
-from polhode.view.stills._bodies import bodies, joints, links
+from polhode.view.stills._bodies import DARK, bodies, joints, links
 from polhode.view.stills._camera import Camera, between, camera_of, place_at, turn_at
-from polhode.view.stills._ground import LINES, STRONG, Ground, grounds_of, shells
+from polhode.view.stills._ground import ACCENT, LINES, STRONG, Ground, grounds_of, shells
 from polhode.view.stills._mesh import Mesh, rod_between, together
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-SKY = "#f7f6f2"
-_SHADOW = "#cfccc2"
+SKY, _SHADOW = (colours("stills")[name] for name in ("sky", "shadow"))
 _LIGHT = np.array([0.35, -0.45, 0.82])  # along right, away from the eye, and up
 _AMBIENT = 0.5
-_TRACES = {"contact": "#c2410c", "centre": "#2563a8", "axis": "#7a3e93"}
-ARROWS = {
-    "force": "#d55e00",
-    "load": "#8a6d00",
-    "torque": "#a8518f",
-    "omega": "#009e73",
-    "momentum": "#0072b2",
-}
+_TRACES = {kind: colour(f"path-{kind}") for kind in ("contact", "centre", "axis")}
+ARROWS = {kind: colour(kind) for kind in ("force", "load", "torque", "omega", "momentum")}
 _LONG = 2.0  # usual length of the longest arrow of a kind, in reaches of the picture
 _LEVEL = 1e-3  # a body hangs if it is this far below its point, relative to its rise and fall
 _BOUNDLESS = 2.6  # radius of a plane against that of the picture
@@ -84,7 +78,7 @@ def _posts(scene: Scene) -> Iterator[Mesh]:
         hangs = np.mean((place - foot) @ up) < -_LEVEL * np.ptp(place @ up)
         height = float(foot @ up) - scene.floor
         if height > 0 and not hangs:
-            yield rod_between(foot - up * height, foot, 0.03 * height, "#5b636d")
+            yield rod_between(foot - up * height, foot, 0.03 * height, DARK)
 
 
 def _light(camera: Camera, up: Array) -> Array:
@@ -108,7 +102,7 @@ def _draw_ground(ax: Axes, camera: Camera, ground: Ground, order: float) -> None
     lines = [camera.project(line) for line in ground.lines]
     ax.add_collection(LineCollection(lines, colors=LINES, linewidths=0.5, zorder=order + 0.02))
     for mark in ground.marks:
-        ax.fill(*camera.project(mark).T, facecolor="#e0672b", zorder=order + 0.03)
+        ax.fill(*camera.project(mark).T, facecolor=ACCENT, zorder=order + 0.03)
 
 
 def _draw_shadow(ax: Axes, camera: Camera, mesh: Mesh, ground: Ground, light: Array) -> None:
