@@ -251,6 +251,22 @@ def test_sliders_are_in_the_units_that_were_written():
     assert units["theta"] == (pytest.approx(np.degrees(1.2)), "deg")
 
 
+def test_a_rolling_motion_tells_how_much_friction_it_needs():
+    """Against the forces of Python; with less friction it slips, where more leaves it as it is."""
+    run, _, live = followed("rolling-disk --mu 0.3 --duration 2s")
+    numbers = usual_numbers(live)
+    (shown,) = answers(live, {"numbers": numbers, "frames": 2001})
+    times = np.linspace(0, run.duration, 2001)
+    along_, across, normal = (run.evaluate(name, times) for name in ("F_x", "F_y", "F_z"))
+    ratios = np.hypot(along_, across) / normal
+    assert shown["needed"] == pytest.approx([ratios[0], np.max(ratios)], rel=1e-9)
+    place = [slider["name"] for slider in live["parameters"]].index(live["friction"])
+    for factor, slips in ((0.99, True), (1.001, False)):
+        numbers["parameters"][place] = factor * np.max(ratios)
+        (found,) = answers(live, {"numbers": numbers, "frames": 201})
+        assert (found["needed"] is None) == slips
+
+
 def test_impossible_coefficients_are_refused_in_words():
     _, _, live = followed("rolling-disk --mu 0.1 --mu-static 0.2 --duration 0.1s")
     numbers = usual_numbers(live)

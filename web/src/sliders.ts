@@ -80,10 +80,10 @@ export class Slider {
       tick.style.left = `${100 * share}%`;
       return tick;
     });
-    this.row.querySelector(".ticks")?.remove();
+    for (const part of this.row.querySelectorAll(".ticks, .told")) part.remove();
     if (!ticks.length) return;
-    const told = make("span", { class: "spoken" }, within.map(({ title }) => title).join("; "));
-    this.row.append(make("span", { class: "ticks" }, ...ticks, told));
+    this.field.after(make("span", { class: "ticks" }, ...ticks));
+    this.row.append(make("small", { class: "told" }, within.map(({ title }) => title).join("; ")));
   }
 
   get name(): string {

@@ -21,7 +21,8 @@ const SETTLED = 180; // ms after the last change, when all frames are computed
 const ROWS = 2001; // of a table
 const LONGEST = 3600; // s
 const LEFT = "The motion starts as the body was let go; a slider of the start begins another one.";
-const SAME = 1e-6; // of a duration
+const SAME = 1e-6; // of a duration, or of a coefficient
+const ROUNDED_UP = 1.005; // before three digits are printed
 
 export class LivePage implements Handling {
   private readonly player = new Player();
@@ -265,8 +266,8 @@ export class LivePage implements Handling {
     if (needed) this.ticks = { others, needed };
     const [least, most] = this.ticks.others === others ? this.ticks.needed : [NaN, NaN];
     slider?.tick([
-      { value: least, title: `${digits(least, 3)}: with less, it slips at once` },
-      { value: most, title: `${digits(most, 3)}: with less, it slips somewhere` },
+      ...(most - least > SAME * most ? [{ value: least, title: `below ${digits(least, 3)} it slips at once` }] : []),
+      { value: most, title: `from ${digits(most * ROUNDED_UP, 3)} on it never slips` },
     ]);
   }
 
