@@ -16,7 +16,6 @@ from polhode.catalogue import CatalogueEntry, numbers_of
 from polhode.derive import Equations, derive
 from polhode.model import System, with_edge, with_friction
 from polhode.simulate import Trajectory, simulate
-from polhode.view import Scene, scene
 from polhode.view.figures import figure_of_run, origin_of, svg_of
 
 _SAMPLES = 8001
@@ -104,7 +103,6 @@ class ShownMotion:
         extremes: of the quantities asked for.
         happened: what happened, in words with `$…$` around formulas.
         svg: its history as a picture.
-        scene: for its page in three dimensions.
     """
 
     motion: Motion
@@ -112,7 +110,6 @@ class ShownMotion:
     extremes: tuple[Extreme, ...]
     happened: str
     svg: str
-    scene: Scene
 
 
 def shown_motion(entry: CatalogueEntry, motion: Motion) -> ShownMotion:
@@ -136,15 +133,12 @@ def shown_motion(entry: CatalogueEntry, motion: Motion) -> ShownMotion:
     extremes = tuple(_extremes(run, motion.extremes))
     period = _period(run, motion.period)
     figure = figure_of_run(run, motion.plots, period=period)
-    meanings = {parameter.name: parameter.meaning for parameter in entry.parameters}
-    title = f"{entry.title}: {motion.title}"
     return ShownMotion(
         motion,
         run,
         extremes,
         " ".join([*_happened(run, ratio, motion), *_passed(run, motion, period)]),
         svg_of(figure, origin=origin_of(run)),
-        scene(run, title=title, plots=motion.plots, meanings=meanings),
     )
 
 

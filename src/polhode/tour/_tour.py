@@ -13,8 +13,8 @@ from polhode.tour._claims import JudgedClaim, judging
 from polhode.tour._page import CARD, FIGURES, Problem, front_page, problem_page, problems
 from polhode.tour._report import TourReport, row_of, text_of
 from polhode.tour._sections import stem
-from polhode.tour._work import Worked, work_through
-from polhode.view import clearest_time, page_of, still
+from polhode.tour._work import Worked, meanings_of, work_through
+from polhode.view import clearest_time, page, still
 from polhode.view.figures import for_dark_pages
 
 
@@ -67,18 +67,27 @@ def write_tour(
         progress.advance()
     finally:
         progress.finish()
-    page = _write_pages(directory, problems(all_worked, verdicts))
-    return TourReport(page, tuple(map(row_of, all_worked)), verdicts)
+    front = _write_pages(directory, problems(all_worked, verdicts))
+    return TourReport(front, tuple(map(row_of, all_worked)), verdicts)
 
 
 def _write_motions(directory: Path, worked: Worked) -> None:
-    """The pictures and the pages in three dimensions of the motions that show answers."""
+    """The pictures and the live pages of the motions that show answers."""
     for motion in worked.motions:
         name = f"{stem(worked.entry.name)}-{motion.motion.name}"
         write_whole(directory / FIGURES / f"{name}.svg", motion.svg.encode())
         dark = directory / FIGURES / f"{name}-dark.svg"
         write_whole(dark, for_dark_pages(motion.svg).encode())
-        write_whole(directory / f"{name}-3d.html", page_of(motion.scene).encode())
+        entry, asked = worked.entry, motion.motion
+        page(
+            motion.run,
+            directory / f"{name}-3d.html",
+            title=f"{entry.title}: {asked.title}",
+            plots=asked.plots,
+            meanings=meanings_of(entry),
+            live=True,
+            written={**entry.defaults, **asked.settings, **asked.start},
+        )
 
 
 def _solved(worked: Worked, verdicts: Iterable[JudgedClaim]) -> Worked:
@@ -96,13 +105,22 @@ def _write_pages(directory: Path, all_problems: Sequence[Problem]) -> Path:
         card = directory / FIGURES / f"{problem.name}-card.png"
         still(shown, card, time=clearest_time(shown), size=CARD)
         for worked in problem.systems:
-            # the page in three dimensions, with verdicts on the claims about the system
+            # the live page, with verdicts on the claims about the system
             name = worked.entry.name
             own = tuple(claim.judgement for claim in problem.claims if claim.system == name)
-            player = page_of(replace(worked.scene, judgements=own))
-            write_whole(directory / f"{stem(name)}-3d.html", player.encode())
-        page = problem_page(problem, all_problems)
-        write_whole(directory / f"{problem.name}.html", page.encode())
+            entry = worked.entry
+            page(
+                worked.run,
+                directory / f"{stem(name)}-3d.html",
+                title=entry.title,
+                plots=entry.plots,
+                meanings=meanings_of(entry),
+                judgements=own,
+                live=True,
+                written={**entry.defaults, **entry.start},
+            )
+        whole = problem_page(problem, all_problems)
+        write_whole(directory / f"{problem.name}.html", whole.encode())
     front = directory / "index.html"
     write_whole(front, front_page(all_problems).encode())
     return front

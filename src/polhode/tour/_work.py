@@ -47,7 +47,7 @@ class Worked:
         constraint_drift: largest distance of a centre of mass from the integral of its
             constrained velocity, or gap of a closed loop, m.
         drawings: of the run.
-        scene: of the run, for its page in three dimensions.
+        scene: of the run, for the card of its problem.
         motions: that show the answers to its questions.
         solution: with the text's questions answered; None for a system it does not treat.
         seconds: computing time of all this.
@@ -89,18 +89,18 @@ def work_through(entry: CatalogueEntry) -> Worked:
         Drawing(f"{stem}-{picture.name}", picture.caption, svg_of(picture.draw(run), origin=origin))
         for picture in pictures_of(entry)
     )
-    shown = scene(
-        run,
-        title=entry.title,
-        plots=entry.plots,
-        meanings={parameter.name: parameter.meaning for parameter in entry.parameters},
-    )
+    shown = scene(run, title=entry.title)
     motions = tuple(shown_motion(entry, motion) for motion in MOTIONS.get(entry.name, ()))
     drift = max(travel.defect, run.drift.constraint)
     seconds = time.perf_counter() - began
     return Worked(
         entry, equations, conserved, run, checks, drift, drawings, shown, motions, seconds
     )
+
+
+def meanings_of(entry: CatalogueEntry) -> dict[str, str]:
+    """Of the parameters, in words."""
+    return {parameter.name: parameter.meaning for parameter in entry.parameters}
 
 
 def default_run(
