@@ -1,10 +1,10 @@
 // Bundles the front end, scripts and style sheets for pages, frames, the lab and the worker of live pages: node build.mjs FOLDER
 import { build } from "esbuild";
-import { mkdir, readFile, writeFile } from "node:fs/promises";
+import { mkdir, readdir, readFile, writeFile } from "node:fs/promises";
 import { dirname, join, resolve } from "node:path";
 
 const folder = process.argv[2] ?? "built";
-const BUNDLED = ["three", "uplot"];
+const BUNDLED = ["three", "uplot", "gifenc"];
 const THREE = resolve("node_modules/three");
 const SHADERS = join(THREE, "src/renderers/shaders");
 // of three's materials those that the pages have, what their shadows need, and what the renderer adds to each
@@ -76,6 +76,7 @@ async function included(paths) {
 async function licence(name) {
   const home = join("node_modules", name);
   const { version, license } = JSON.parse(await readFile(join(home, "package.json"), "utf8"));
-  const text = await readFile(join(home, "LICENSE"), "utf8");
+  const file = (await readdir(home)).find((path) => /^LICENSE(\.md)?$/.test(path));
+  const text = await readFile(join(home, file), "utf8");
   return `${name} ${version} (${license})\n\n${text.trim()}\n`;
 }

@@ -1,9 +1,11 @@
 """Live pages in a browser: sliders run the physics, offline, and what the page saves is exact."""
 
+import io
 from itertools import pairwise
 
 import numpy as np
 import pytest
+from PIL import Image
 
 import polhode as ph
 from browser.conftest import AXE, PHONE, RULES
@@ -118,6 +120,27 @@ def test_a_picture_is_saved(disk):
     content = saved(disk, "Save picture").read_bytes()
     assert content.startswith(b"\x89PNG")
     assert len(content) > 5000
+
+
+def test_what_the_plots_show_is_saved_as_a_film(disk):
+    page = disk.page
+    for _ in range(5):
+        page.get_by_role("button", name="Plots: zoom in").click()
+    page.get_by_role("button", name="loop").click()
+    page.get_by_label("Speed").select_option("1")
+    content = saved(disk, "Save film").read_bytes()
+    page.get_by_role("button", name="loop").click()
+    page.get_by_role("button", name="Plots: the whole").click()
+    film = Image.open(io.BytesIO(content))
+    assert film.format == "GIF"
+    assert film.size[0] == 480
+    assert film.n_frames >= 2
+    frames = []
+    for place in (0, film.n_frames - 1):
+        film.seek(place)
+        frames.append(np.asarray(film.convert("RGB"), dtype=float))
+    assert np.mean(np.abs(frames[1] - frames[0])) > 1
+    assert disk.complaints == []
 
 
 def test_the_link_holds_the_motion(opened, live, disk):

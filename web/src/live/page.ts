@@ -2,6 +2,7 @@
 
 import "../sliders.css";
 import { digits, formula, make, painted, raised } from "../dom";
+import { film } from "../film";
 import { Player } from "../player";
 import type { SceneData, TraceData, Triple } from "../scene";
 import { type Control, isAbout, Slider } from "../sliders";
@@ -96,6 +97,8 @@ export class LivePage implements Handling {
     table.addEventListener("click", () => void this.save());
     const picture = make("button", { type: "button", class: "switch", title: "The picture as PNG" }, "Save picture");
     picture.addEventListener("click", () => this.savePicture());
+    const films = make("button", { type: "button", class: "switch", title: "What plays, or what the plots show in a loop, as GIF" }, "Save film");
+    films.addEventListener("click", () => void this.saveFilm(films));
     this.panel.replaceChildren(
       ...(presets ? [presets] : []),
       make("h2", {}, "Start"),
@@ -105,7 +108,7 @@ export class LivePage implements Handling {
       ...live.parameters.map(row("parameters")),
       ...formulas,
       this.span(),
-      make("div", { class: "keeping" }, reset, keep, link, frame, table, picture),
+      make("div", { class: "keeping" }, reset, keep, link, frame, table, picture, films),
       this.message,
     );
   }
@@ -388,6 +391,20 @@ export class LivePage implements Handling {
     if (!stage) return this.say("There is no picture in three dimensions here.");
     stage.drawNow(); // what was drawn before is gone from the canvas
     stage.canvas.toBlob((image) => image && this.download(image, "png"));
+  }
+
+  private async saveFilm(button: HTMLButtonElement): Promise<void> {
+    const { stage, clock } = this.player;
+    if (!stage || !clock) return this.say("There is no picture in three dimensions here.");
+    button.disabled = true;
+    try {
+      const made = await film(stage, clock, (share) => this.say(`Film: ${10 * Math.floor(10 * share)} %`));
+      this.download(made, "gif");
+      this.say(`A film of ${digits(made.size / 1e6, 2)} MB was saved.`);
+    } catch (error) {
+      this.say((error as Error).message);
+    }
+    button.disabled = false;
   }
 
   private download(content: Blob, ending: string): void {
