@@ -13,6 +13,7 @@ from polhode.derive._automaton import height_of as height_of
 from polhode.derive._automaton import slips_along as slips_along
 from polhode.derive._automaton import velocities_of_support as velocities_of_support
 from polhode.derive._balance_table import BalanceTable as BalanceTable
+from polhode.derive._balance_table import balance_table as balance_table
 from polhode.derive._derive import derive as derive
 from polhode.derive._derive import derive_in_parts as derive_in_parts
 from polhode.derive._equations import Equations as Equations

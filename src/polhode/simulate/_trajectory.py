@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -12,11 +12,12 @@ import numpy as np
 
 from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError, Shown, StoreError, look_up
-from polhode.derive import Equations
-from polhode.model import write_declaration
+from polhode.derive import BalanceTable, Equations, balance_table
+from polhode.model import System, write_declaration
 from polhode.simulate._drift import Drift, drift_of
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion, readable
 from polhode.simulate._event import Event, placed
+from polhode.simulate._open_reactions import OpenReactions, open_reactions
 from polhode.simulate._segment import Segment, TrajectoryPiece
 from polhode.simulate._units import unit_in
 from polhode.simulate.files._archive import Archive, ChebyshevPiece, Sampled, series_of
@@ -160,13 +161,14 @@ class Trajectory(Shown):
 
     @property
     def reactions(self) -> tuple[str, ...]:
-        """Names of the reaction components that Newton's laws determine, of all modes."""
+        """Names of the reaction components that are determined, of all modes.
+
+        By Newton's laws, or by the law by which supports of the system share a load.
+        """
         found: dict[str, None] = {}
-        for segment in self.segments:
-            equations = segment.dynamics.equations
-            found |= dict.fromkeys(
-                n for n in equations.components if n not in equations.undetermined
-            )
+        for i, segment in enumerate(self.segments):
+            names = segment.dynamics.equations.components
+            found |= dict.fromkeys(n for n in names if not self._is_undetermined(n, i))
         return tuple(found)
 
     @cached_property
@@ -274,14 +276,38 @@ class Trajectory(Shown):
         if self._is_undetermined(quantity, segment):
             raise NumericError(
                 f"the reaction {quantity} is not determined by Newton's laws",
-                expected=f"one of {', '.join(self.reactions)}",
+                expected=f"one of {', '.join(self.reactions)}" if self.reactions else "a quantity",
                 advice="evaluate equations.least[...] for the reactions of least norm",
             )
         return look_up(quantity, self._readable[segment], "quantity of this system")
 
     def _is_undetermined(self, name: str, segment: int) -> bool:
-        """Whether Newton's laws leave a reaction open in a mode."""
-        return name in self.segments[segment].dynamics.equations.undetermined
+        """Whether a reaction is open in a mode."""
+        is_open = name in self.segments[segment].dynamics.equations.undetermined
+        return is_open and name not in self._shared[segment]
+
+    @cached_property
+    def _balances(self) -> tuple[BalanceTable | None, ...]:
+        """Of each mode the balances of its bodies, where its equations leave reactions open."""
+        modes = [cast(Equations, segment.dynamics.equations) for segment in self.segments]
+        known = {id(m): balance_table(m) for m in modes if self._may_be_shared(m)}
+        return tuple(known.get(id(mode)) for mode in modes)
+
+    def _may_be_shared(self, mode: Equations) -> bool:
+        is_declared = isinstance(self.system, System)
+        return is_declared and bool(mode.undetermined) and self.precision == DOUBLES.name
+
+    @cached_property
+    def _shared(self) -> tuple[frozenset[str], ...]:
+        """Of each mode the reactions that its equations leave open, though they are determined."""
+        found = []
+        for segment, table in zip(self.segments, self._balances, strict=True):
+            names = table.names if table is not None else ()
+            at_begin = np.array([segment.begin])
+            for forces in _open_reactions_in(segment, table, at_begin) if table else ():
+                names = tuple(n for j, n in enumerate(names) if forces.are_determined(j))
+            found.append(frozenset(names))
+        return tuple(found)
 
     def _is_open(self, quantity: str | Symbol | Expr, segment: int) -> bool:
         """Whether it is a reaction that is open in this mode, but not in all."""
@@ -307,13 +333,29 @@ class Trajectory(Shown):
         for i in occurring(which):
             here = which == i
             open_ = [k for k, quantity in enumerate(wanted) if self._is_open(quantity, int(i))]
+            shared = [k for k, quantity in enumerate(wanted) if quantity in self._shared[i]]
             expressions = [
-                _NOTHING if k in open_ else self._expression(quantity, int(i))
+                _NOTHING if k in (*open_, *shared) else self._expression(quantity, int(i))
                 for k, quantity in enumerate(wanted)
             ]
-            found[:, here] = self.segments[i].values(expressions, flat[here])
+            segment = self.segments[i]
+            found[:, here] = segment.values(expressions, flat[here])
             found[np.ix_(open_, here)] = np.nan
+            table = self._balances[i]
+            if shared and table is not None:
+                places = [table.names.index(cast(str, wanted[k])) for k in shared]
+                forces = _open_reactions_in(segment, table, flat[here])
+                found[np.ix_(shared, here)] = np.transpose([f.values[places] for f in forces])
         return found.reshape(len(wanted), *times.shape)
+
+
+def _open_reactions_in(
+    segment: Segment, table: BalanceTable, times: Array
+) -> Iterator[OpenReactions]:
+    """The reactions of a mode at instants, where its equations leave some of them open."""
+    is_shared = bool(cast(Equations, segment.dynamics.equations).system.sharing)
+    for values in segment.values(table.expressions, times).T:
+        yield open_reactions(table, values, is_shared=is_shared)
 
 
 #: The value of a quantity in a mode without it, such as the force of an open contact.

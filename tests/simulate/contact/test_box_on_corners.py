@@ -62,6 +62,27 @@ def test_its_corners_share_the_weight_and_the_couple_of_friction() -> None:
         assert run[f"{name}_z"] == pytest.approx(expected, rel=1e-12)
 
 
+def test_at_rest_its_corners_still_share_the_weight(tmp_path) -> None:
+    """On a slope the lower ones carry more; how friction is shared stays open."""
+    m, _, b, c, g = NUMBERS.values()  # b along the slope
+    slope = 0.2
+    run = ph.simulate(tilted(), NUMBERS | {MU: 0.5, SLOPE: slope}, {"v_x": 0.4}, 0.6)
+    assert kinds(run) == ["start", "sticks", "end"]
+    share, couple = m * g * np.cos(slope) / 4, m * g * np.sin(slope) * c / 2
+    names = tuple(f"{corner}_z" for corner in "PQRS")
+    least, most = share - couple / (2 * b), share + couple / (2 * b)
+    assert sorted(run.final[name] for name in names) == pytest.approx(
+        [least, least, most, most], rel=1e-12
+    )
+    assert set(names) <= set(run.reactions)
+    assert np.isnan(run.evaluate("P_x", run.duration))
+    assert "P_x" not in run.final
+    run.save(tmp_path / "box.h5")
+    again = ph.load(tmp_path / "box.h5")
+    for name in names:
+        assert again.final[name] == pytest.approx(run.final[name], rel=1e-12)
+
+
 @pytest.mark.parametrize("slope", [0.0, 0.25])
 def test_pushed_and_spun_it_follows_newton_and_euler(slope: float) -> None:
     push = (0.8, 0.3, 6.0)

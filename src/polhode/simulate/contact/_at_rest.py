@@ -14,10 +14,10 @@ import numpy as np
 from polhode.algebra import Expr, SymbolKind
 from polhode.derive import Mode
 from polhode.model import DryFriction
+from polhode.simulate._open_reactions import null_space
 from polhode.simulate.contact._cones import Affine, FrictionCone, can_hold
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._mode_state import ModeState
-from polhode.simulate.contact._open_forces import null_space
 from polhode.simulate.integrate._arrays import Array
 
 _EQUILIBRIUM = 1e-12  # of the largest load: what is left over of the balances is rounding

@@ -19,10 +19,10 @@ from polhode.algebra import ONE
 from polhode.base import bisected
 from polhode.derive import BalanceTable, Guard, Mode
 from polhode.model import ContactLaw, DryFriction
+from polhode.simulate._open_reactions import OpenReactions, open_reactions
 from polhode.simulate.contact._cones import FrictionCone, can_hold, strained
 from polhode.simulate.integrate._arrays import Array
 
-_INDEPENDENT = 1e-10  # of the largest singular value: smaller ones are rounding
 _SAME = 1e-9  # of a reaction: changes that are smaller are none
 _PULLS = 1e-10  # of the largest force: less than this is rounding of a contact that opens
 _LEAST = 1e-12  # of the largest limit: contacts with less carry nothing
@@ -38,19 +38,6 @@ class GivesWay(Guard):
     """
 
     places: frozenset[int] = frozenset()
-
-
-@dataclass(frozen=True)
-class _Forces:
-    """Reactions at one instant: those of least size, and their changes that the bodies do not feel.
-
-    Attributes:
-        values: shape (reactions,).
-        free: shape (reactions, changes).
-    """
-
-    values: Array
-    free: Array
 
 
 class OpenForces:
@@ -86,7 +73,7 @@ class OpenForces:
         if any(self._contacts[i].is_beside for i in self._touching):
             return False
         normal = [self._reaction(i, self._contacts[i].on.normal) for i in self._touching]
-        return bool(np.max(np.abs(forces.free[normal]), initial=0.0) <= _SAME)
+        return forces.are_determined(normal)
 
     def objection(self, values: Array, coefficients: Sequence[float]) -> str | None:
         """Why the contacts cannot exert the forces they need; None if they can.
@@ -127,7 +114,7 @@ class OpenForces:
             last = float(np.nextafter(last, -np.inf))
         return last, self._guard(self._forces(values(np.array([last]))[:, 0]), coefficients)
 
-    def _guard(self, forces: _Forces, coefficients: Sequence[float]) -> Guard:
+    def _guard(self, forces: OpenReactions, coefficients: Sequence[float]) -> Guard:
         """What happens where the contacts are at a limit."""
         if pulling := self._pulling(forces, -_SAME):
             return GivesWay(self._contacts[min(pulling)], "lifts off", ONE)
@@ -137,34 +124,25 @@ class OpenForces:
 
     # -- at one instant ----------------------------------------------------------------------------
 
-    def _forces(self, values: Array) -> _Forces:
-        count, pushes = len(self.table.names), list(self.table.pushes)
-        rows = np.asarray(values, dtype=float).reshape(-1, 1 + count + len(pushes))
-        required, columns = rows[:, 0], rows[:, 1 : 1 + count]
-        if self._mode.equations.system.sharing:
-            # perpendicular to all normal forces that the bodies do not feel: equal stiffness
-            unfelt = null_space(rows[:, 1 + count :])
-            law = np.zeros((unfelt.shape[1], count))
-            law[:, pushes] = unfelt.T * np.max(np.abs(columns), initial=0.0)
-            required, columns = np.append(required, np.zeros(len(law))), np.vstack([columns, law])
-        least = np.linalg.lstsq(columns, required, rcond=_INDEPENDENT)[0]
-        return _Forces(np.asarray(least, dtype=float), null_space(columns))
+    def _forces(self, values: Array) -> OpenReactions:
+        is_shared = bool(self._mode.equations.system.sharing)
+        return open_reactions(self.table, values, is_shared=is_shared)
 
     def _reaction(self, i: int, label: str) -> int:
         return self.table.names.index(self._contacts[i].component(label))
 
-    def _pulling(self, forces: _Forces, share: float) -> list[int]:
+    def _pulling(self, forces: OpenReactions, share: float) -> list[int]:
         """The contacts whose normal force is below zero by a share of the largest force."""
         least = -share * np.max(np.abs(forces.values), initial=0.0)
         normal = {i: self._reaction(i, self._contacts[i].on.normal) for i in self._touching}
         return [i for i, j in normal.items() if forces.values[j] < least]
 
-    def _stick(self, forces: _Forces, coefficients: Sequence[float]) -> bool:
+    def _stick(self, forces: OpenReactions, coefficients: Sequence[float]) -> bool:
         cones, scale = self._cones(forces, coefficients)
         return can_hold(cones, forces.free.shape[1], scale)
 
     def _cones(
-        self, forces: _Forces, coefficients: Sequence[float]
+        self, forces: OpenReactions, coefficients: Sequence[float]
     ) -> tuple[list[FrictionCone], float]:
         """The discs of friction, and the size of the forces.
 
@@ -188,10 +166,3 @@ class OpenForces:
             for limit, force, changes in zip(limits.tolist(), along, slopes, strict=True)
         ]
         return cones, float(max(np.max(limits, initial=0.0), np.max(np.abs(along), initial=0.0)))
-
-
-def null_space(columns: Array) -> Array:
-    """Changes of the unknowns that the equations do not feel, shape (unknowns, changes)."""
-    _, sizes, rows = np.linalg.svd(columns)
-    rank = int(np.sum(sizes > _INDEPENDENT * np.max(sizes, initial=0.0)))
-    return np.asarray(rows[rank:].T)

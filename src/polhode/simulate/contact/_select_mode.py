@@ -26,6 +26,7 @@ from polhode.model import (
     Phase,
     Rolling,
 )
+from polhode.simulate._open_reactions import null_space
 from polhode.simulate.contact._at_rest import rests
 from polhode.simulate.contact._contact_kinematics import (
     NO_NORMAL_SPEED,
@@ -35,7 +36,6 @@ from polhode.simulate.contact._contact_kinematics import (
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, directions_of, entered
 from polhode.simulate.contact._onset_directions import NO_SLIP, begin_slips
-from polhode.simulate.contact._open_forces import null_space
 from polhode.simulate.contact._regular_speeds import on_regular_speeds
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._number_types import DOUBLES
