@@ -1,5 +1,5 @@
 """Runs the examples of every page of the documents, shows the figures that they make, builds worked
-solutions, and lists all public names.
+solutions and a live page, and lists all public names.
 
 MkDocs calls `on_files`, `on_page_markdown` and `on_page_content`; the tests call `run_page` and
 `all_names`.
@@ -24,6 +24,7 @@ _ALL_NAMES = "{{ all names }}"
 _DOTTED = re.compile("<[^>]*>|(.)([\u0307\u0308])")
 _FORMULA = re.compile(r"^\{\{ disk: (.+?) ?\}\}$", re.MULTILINE)
 _SOLVED = Path(__file__).parent / "docs" / "examples" / "solutions"
+_SHOWN = "gyroscope"
 _DOTS = {"\u0307": "\u02d9", "\u0308": "\u00a8"}
 
 
@@ -64,11 +65,25 @@ def on_files(files: Any, config: Any) -> Any:
             folder = PurePosixPath(file.src_uri).parent
             for name, content in _made_by(text, file.src_uri):
                 files.append(File.generated(config, str(folder / name), content=content))
+    if files.get_file_from_path("index.md"):  # which shows it
+        address, content = f"live/{_SHOWN}.html", live_page(_SHOWN)
+        files.append(File.generated(config, address, content=content))
     if files.get_file_from_path("solved-systems.md"):  # which links to them
         for declared in sorted(_SOLVED.glob("*.py")):
             address = f"solutions/{declared.stem}.html"
             files.append(File.generated(config, address, content=solved(declared)))
     return files
+
+
+def live_page(name: str) -> str:
+    """The live page of a system of the catalogue."""
+    from polhode.cli import main
+
+    with tempfile.TemporaryDirectory() as folder:
+        page = Path(folder) / f"{name}.html"
+        with contextlib.redirect_stdout(io.StringIO()):
+            main(["page", name, "--live", "-o", str(page)])
+        return page.read_text("utf-8")
 
 
 def solved(declared: Path) -> str:

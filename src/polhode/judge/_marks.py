@@ -15,6 +15,7 @@ from polhode.judge._reviewed import Mark, ReviewedLine
 from polhode.judge._verdict import Answer, Verdict
 from polhode.judge.consequences._consequences import Consequences
 from polhode.judge.consequences._open_letters import OpenLetters
+from polhode.judge.latex._tree import Node
 from polhode.judge.lines._hypotheses import is_condition
 from polhode.judge.lines._judged_line import JudgedLine
 from polhode.judge.processes._limited_check import uncorrected
@@ -88,6 +89,7 @@ class _Marker:
         self._letters = OpenLetters()
         self._closed = ClosedLetters()
         self._doubted: set[int] = set()
+        self._unsure = dict[Node, int]()  # letters by the wrong or doubted line that defines them
         self._accused: set[int] = set()
         self._wrong_parts: set[str] = set()  # problems of the text that have an error
         self._consequences = Consequences(equations, self._letters)
@@ -116,6 +118,7 @@ class _Marker:
             said = self._drawn_from_no_error(judged, said)
         if said.mark in (Mark.ERROR, Mark.FOLLOWS):
             self._accused.add(index)
+        self._keep_in_mind(judged, said, index)
         if said.mark is Mark.DOUBT:
             self._doubted.add(index)
             verdict = replace(verdict, counterexample=None, confirmation=None)
@@ -135,6 +138,13 @@ class _Marker:
             verdict=verdict,
             read_as=judged.line.read_as,
         )
+
+    def _keep_in_mind(self, judged: JudgedLine, said: _Said, index: int) -> None:
+        """Letters that a line defines are as sure as the line."""
+        for letter in judged.defines:
+            self._unsure.pop(letter, None)
+            if said.mark in (Mark.ERROR, Mark.FOLLOWS, Mark.DOUBT):
+                self._unsure[letter] = index
 
     def _proved(self, judged: JudgedLine, verdict: Verdict, said: _Said) -> _Said:
         """What is said of a line that fails, by the evidence for a slip."""
@@ -169,6 +179,10 @@ class _Marker:
             self._take_in(judged)
             return _Said(Mark.NOT_JUDGED, judged.stated)
         if verdict.holds and not judged.needs:
+            unsure = [self._unsure[n] for n in judged.line.letters if n in self._unsure]
+            if unsure:
+                reason = "it holds for a letter as a line in doubt, or a wrong one, defines it"
+                return _Said(Mark.DOUBT, reason, unsure[0])
             return self._of_true(judged)
         if judged.needs:
             fails = verdict.answer is Answer.FAILS

@@ -237,15 +237,14 @@ def _with_letters_of(
 
 
 def _not_claimed_again(judged: JudgedLine, statements: Statements) -> JudgedLine:
-    """A line that repeats word for word what the text has assumed: true by that alone.
-
-    What repeats the definition of a letter may be the answer that is asked for.
-    """
+    """A line that repeats word for word what the text has stated: true by that alone."""
     printed = judged.line.relation.printed
-    if judged.stated and not judged.defines:
-        statements.printed.add(printed)
+    if judged.stated:
+        repeats = "it repeats what the text has stated"
+        again = f"{judged.stated} once more" if judged.defines else repeats
+        statements.printed.setdefault(printed, again)
     elif judged.verdict.holds and printed in statements.printed:
-        return replace(judged, stated="it repeats what the text has stated")
+        return replace(judged, stated=statements.printed[printed])
     return judged
 
 

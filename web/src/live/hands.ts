@@ -138,7 +138,8 @@ export class Hands {
       if (!hand) continue;
       try {
         const found = await this.page.handle(numbers, hand);
-        this.label.textContent = held.pushes ? `${digits(found.impulse, 2)} N s` : "";
+        const told = found.impulse ? `${digits(found.impulse, 2)} N s` : "this point does not move";
+        this.label.textContent = held.pushes ? told : "";
         if (!held.pushes) held.numbers = { ...numbers, start: found.start, begin: found.begin };
         this.page.restart(found);
       } catch (error) {

@@ -30,6 +30,7 @@ from polhode.judge.lines._needs import as_approximate
 from polhode.judge.lines._vacuous import is_void, terms
 from polhode.judge.meaning._initial_values import initial_value
 from polhode.judge.meaning._mechanics import is_acceleration
+from polhode.judge.meaning._proposals import OWN
 from polhode.judge.meaning._relations import BoundRelation, ScalarRelation
 from polhode.judge.states._bound_claim import EQUALITY, BoundClaim, Small
 from polhode.judge.states._claim_domain import TrueMotion
@@ -107,6 +108,8 @@ def supposed(
             found = hypothesis.judged(equations)
             if found.verdict.answer is Answer.AMBIGUOUS and hypothesis.is_said:
                 return found  # it holds in one reading of its letters
+            if _defines_what_is_claimed(found):
+                continue
             if found.verdict.holds and _counts(found, hypothesis.context, equations):
                 if not hypothesis.is_said:
                     return replace(found, needs=hypothesis.words)
@@ -117,6 +120,15 @@ def supposed(
     if _is_of_a_start(judged, equations):
         return replace(judged, needs="a start, or a level, at which both sides are equal")
     return None
+
+
+def _defines_what_is_claimed(found: JudgedLine) -> bool:
+    """Whether it holds by taking the letter that it is about as defined there: no hypothesis."""
+    relation = found.line.relation.relation
+    if relation is None:
+        return False
+    ways = (way.chosen.get(relation.sides[0]) for way in found.verdict.by_reading)
+    return any(read is not None and read.meaning == OWN for read in ways)
 
 
 def with_what_stands(judged: JudgedLine, near: Sequence[JudgedLine]) -> JudgedLine:

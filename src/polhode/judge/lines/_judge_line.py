@@ -28,6 +28,7 @@ from polhode.judge.lines._vacuous import (
 from polhode.judge.lines._weaker_meanings import is_at_end_of_contact, weaker_meanings
 from polhode.judge.meaning._evaluate import FROM_BODY
 from polhode.judge.meaning._meaning import Meaning
+from polhode.judge.meaning._proposals import OWN
 from polhode.judge.meaning._relations import BoundRelation
 from polhode.judge.text._cues import Role
 from polhode.judge.text._in_force import Chosen, is_number, varies
@@ -44,11 +45,11 @@ def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedL
     """The judgement on a line, with letters of several meanings read as chosen."""
     found = _started(line, _seen_from_body(in_context(line, equations, chosen, "motion")))
     if found.verdict.answer is Answer.HOLDS:
-        return _as_identity(JudgedLine(line, found))
+        return _as_called(line, found, equations, chosen) or _as_identity(JudgedLine(line, found))
     if said := _meant_by_words(line, found.verdict):
         return judged_line(line, equations, {**chosen, **said})
     if found.verdict.answer in (Answer.AMBIGUOUS, Answer.DEFINITION, Answer.APPROXIMATE):
-        return _called_wrongly(line, found, equations) or JudgedLine(line, found)
+        return _as_called(line, found, equations, chosen) or JudgedLine(line, found)
     if is_equilibrium(line, found, equations):
         holds = Verdict(Answer.HOLDS, "steady", readings=found.verdict.readings)
         return JudgedLine(line, replace(found, verdict=holds, corrected=None))
@@ -109,6 +110,8 @@ def _in_weaker_meaning(
         other = JudgedLine(meant, _started(meant, found))
         if other.verdict.holds and speaks_of_rates(other, line, context, equations):
             continue
+        if (called := _as_called(line, other.judgement, equations, chosen)) is not None:
+            return called
         if other.verdict.holds and says_something(other, context, equations):
             is_meant = context != "steady" or line.says_that_it_is_steady
             return other if is_meant else replace(other, needs="equilibrium")
@@ -223,15 +226,34 @@ def _meant_by_words(line: TextLine, verdict: Verdict) -> dict[Node, str]:
     return found
 
 
-def _called_wrongly(line: TextLine, found: OpenVerdict, equations: Equations) -> JudgedLine | None:
-    """A definition of what words call the period or frequency, where the system's own differs."""
+def _as_called(
+    line: TextLine, found: OpenVerdict, equations: Equations, chosen: Chosen
+) -> JudgedLine | None:
+    """A line that defines what words call the period or frequency, as a claim about that.
+
+    None where the system has none, or where it could not be compared.
+    """
     letter = line.statement.relations[0].sides[0]
     called = _CALLED.search(line.cues.words_before)
-    if found.verdict.answer is not Answer.DEFINITION or called is None:
+    # of a chain, ω = a = b, the rest may hold
+    may_define = any(
+        letter in way.chosen and way.chosen[letter].meaning == OWN
+        for way in found.verdict.by_reading
+    )
+    if called is None or letter in chosen or not isinstance(letter, Name):
         return None
-    chosen = {letter: f"{called[1].lower()} of small oscillations"}
-    other = JudgedLine(line, in_context(line, equations, chosen, "motion"))
-    return other if other.verdict.answer is Answer.FAILS else None
+    if not (may_define or found.verdict.answer is Answer.DEFINITION):
+        return None
+    kind = f"{called[1].lower()} of small oscillations"
+    vocabulary = line.in_force.notation(equations, {}).vocabulary
+    # one for each steady motion
+    phrases = [p for r in vocabulary.readings_of(letter) for p in r.phrases if p.startswith(kind)]
+    others = [
+        judged_line(line, equations, {**chosen, letter: phrase}) for phrase in phrases or [kind]
+    ]
+    if right := next((other for other in others if other.verdict.holds or other.needs), None):
+        return right
+    return next((other for other in others if other.verdict.answer is Answer.FAILS), None)
 
 
 def _only_read(verdict: Verdict) -> dict[Node, str]:

@@ -15,6 +15,7 @@ from polhode.judge._check import OpenVerdict
 from polhode.judge._verdict import Answer, ComparedCondition, Decides, Verdict
 from polhode.judge.latex import read_latex, write_latex
 from polhode.judge.latex._names import name_of
+from polhode.judge.latex._tree import walk
 from polhode.judge.lines._judged_line import JudgedLine, in_context
 from polhode.judge.meaning._bindings import restrictions
 from polhode.judge.meaning._relations import BoundRelation
@@ -41,7 +42,7 @@ def as_threshold(judged: JudgedLine, equations: Equations) -> JudgedLine:
     if not (latex or line.cues.is_of_stability) or not _compares_quantities(judged):
         return judged
     found = [_judged_at(line, equations, "", latex)]
-    is_stated = True
+    is_stated, is_here = True, False
     is_upright = line.cues.state is not None and line.cues.state.kind is StateKind.UPRIGHT
     # A condition of motions at a fixed angle, which the line is not, is compared with no others.
     first = _refuting(found[0])
@@ -49,14 +50,16 @@ def as_threshold(judged: JudgedLine, equations: Equations) -> JudgedLine:
     for coordinate in () if is_compared else _left_open(judged, equations):
         stated = tuple(dict.fromkeys(_stated_values(line, coordinate, equations)))
         is_stated = bool(stated)
+        is_here = is_here or (is_stated and not _is_elsewhere(line, coordinate))
         for value in stated or _USUAL:
             relation = BoundRelation(Expr.generator(coordinate), "=", value)
             meant = replace(line, in_force=line.in_force.under((relation,)))
             is_named = stated or (is_upright and value != _USUAL[-1])
             said = "" if is_named else f"{Expr.generator(coordinate).latex()} = {value.latex()}"
             found.append(_judged_at(meant, equations, said, latex))
-    if right := next((each for each in found if each.verdict.holds), None):
-        return right
+    for each in found:
+        if each.verdict.holds and not (is_here and _is_of_existence(each)):
+            return each
     failing = [each for each in found if _refuting(each) is not None]
     undecided = [
         each
@@ -71,6 +74,23 @@ def as_threshold(judged: JudgedLine, equations: Equations) -> JudgedLine:
     known = f"{opposite}not equivalent to {refuting.words}" if refuting else _UNDECIDED
     verdict = Verdict(Answer.UNREAD, "threshold", f"{known}; say at which angle the motion is")
     return replace(judged, judgement=OpenVerdict(verdict, judged.judgement.notation))
+
+
+def _is_elsewhere(line: TextLine, coordinate: Symbol) -> bool:
+    """Whether its sentence gives a coordinate by another equation, as cos θ = g/aω² does."""
+    letter = name_of(coordinate.published)
+    for inline in _FORMULA.finditer(line.cues.sentence):
+        with suppress(PolhodeError):
+            sides = read_latex(inline[1] or inline[2]).relations[0].sides
+            if len(sides) == 2 and sides[0] != letter and letter in walk(sides[0]):
+                return True
+    return False
+
+
+def _is_of_existence(judged: JudgedLine) -> bool:
+    """Whether a line is a condition under which there is a steady motion, and of that alone."""
+    compared = judged.verdict.compared
+    return compared is not None and compared.decides is not Decides.STABILITY
 
 
 def _refuting(judged: JudgedLine) -> ComparedCondition | None:

@@ -120,7 +120,7 @@ _LEADS = re.compile(
     re.I,
 )
 _STABLE = re.compile(
-    r"\b(?:stab(?:le|ly|ility)|sleeps?"
+    r"\bfor stability\b|\b(?:stab(?:le|ly|ility)|sleeps?"
     r"|(?:stays?|remains?) (?:small|bounded)|(?:do(?:es)?|will) not grow)\b"
     r".*?\b(?:if|when|whenever|for|provided|requires?|needs?|as long as"
     r"|condition|is|means|criterion|iff|demands?|calls for|necessitates|must|should"

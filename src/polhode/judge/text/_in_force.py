@@ -306,13 +306,14 @@ class Statements:
     Attributes:
         called: what words have called letters so far, which later parts may go on to mean.
         constants: letters of constants of the motion, which another part may use for others.
-        printed: relations that the text has stated, as LaTeX.
+        printed: relations that the text has stated, as LaTeX, and what is said of one that it
+            states again.
     """
 
     def __init__(self) -> None:
         self.called: dict[Node, str] = {}
         self.constants: dict[Node, Meaning] = {}
-        self.printed: set[str] = set()
+        self.printed: dict[str, str] = {}
         self._by_section: dict[Section, InForce] = {}
 
     def at(self, section: Section) -> InForce:
