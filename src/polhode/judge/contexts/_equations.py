@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from itertools import product
+from itertools import combinations, product
 from math import prod
 
-from polhode.algebra import ONE, Expr, as_symbol, time
+from polhode.algebra import ONE, Expr, as_symbol, dot, linear_parts, solve, time
 from polhode.base import PolhodeError
 from polhode.judge._dimensions import dimensions_at_odds
 from polhode.judge._verdict import Answer, Evidence, Refuted, Residual, Verdict
@@ -30,6 +30,7 @@ from polhode.judge.states._claim_domain import AnyState, ClaimDomain, TrueMotion
 _LAGRANGIANS = ("cal L", "L")
 _GIBBS = ("S", "G", "cal S", "Z")  # of the energy of acceleration
 _TIME = as_symbol(time)
+_FEW = 4  # accelerations of a system of which rows are tried
 ENERGIES = ("E", "V", "U", "H", "cal H", "W", "PE", "GPE", "EPE")
 
 
@@ -40,7 +41,36 @@ def judged_identity(claim: BoundClaim) -> Verdict:
 
 def judged_motion(claim: BoundClaim) -> Verdict:
     """On every true motion."""
+    if at_given_accelerations(claim) is not None:
+        return Verdict(Answer.HOLDS, "motion")
     return judged(claim, [claim.states(TrueMotion)], "motion")
+
+
+def at_given_accelerations(claim: BoundClaim) -> Callable[[Expr], Expr] | None:
+    """Expressions on some equations of motion and accelerations that are given, if a claim follows.
+
+    Of a motion with θ̇ = 0 and θ̈ = 0 the other accelerations follow from rows of M u̇ = f, however
+    complicated the restriction is that the remaining rows set for the state. None where no choice
+    of rows makes the claim true.
+    """
+    equations = claim.equations
+    rates = equations.acceleration_symbols
+    held = [r for r in claim.relations if not r.symbols().isdisjoint(rates)]
+    if not held or len(claim.branches) > 1 or len(rates) > _FEW:
+        return None
+    others = tuple(r for r in claim.relations if r not in held)
+    states = replace(claim, relations=others).states(AnyState)
+    solved_for = [Expr.generator(rate) for rate in rates]
+    sides = zip(equations.mass.rows, equations.forcing, strict=True)
+    rows = [dot(row, solved_for) - side for row, side in sides]
+    for chosen in combinations(rows, len(rates) - len(held)):
+        with suppress(PolhodeError, ArithmeticError):
+            known = [linear_parts(states.on(row), rates) for row in (*held, *chosen)]
+            found = solve([parts for parts, _ in known], [-rest for _, rest in known])
+            values = dict(zip(rates, found, strict=True))
+            if not any(states.on(c.difference).subs(values) for c in claim.components()):
+                return lambda expression: states.on(expression).subs(values)
+    return None
 
 
 def judged(claim: BoundClaim, domains: Sequence[ClaimDomain], context: str) -> Verdict:

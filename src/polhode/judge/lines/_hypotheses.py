@@ -19,6 +19,7 @@ from polhode.algebra import PI, ZERO, Expr, Symbol, SymbolKind, as_symbol, time
 from polhode.base import NumericError, PolhodeError
 from polhode.derive import Equations
 from polhode.judge._verdict import Answer, Verdict
+from polhode.judge.contexts._equations import at_given_accelerations
 from polhode.judge.lines._judged_line import (
     JudgedLine,
     differs_by_a_constant,
@@ -374,7 +375,8 @@ def _has_vanishing_term(claim: BoundClaim, context: str) -> bool:
         domains = steady_states(claim) if context == "steady" else (claim.states(TrueMotion),)
         return all(any(d.vanishing(each).is_zero for each in printed) for d in domains)
     except NumericError:
-        return True
+        value = at_given_accelerations(claim) if context == "motion" else None
+        return value is None or not all(map(value, printed))
 
 
 def _all_terms(side: Expr) -> Iterator[Expr]:

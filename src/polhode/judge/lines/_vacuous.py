@@ -11,6 +11,7 @@ from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, as_symbol
 from polhode.base import NumericError, PolhodeError
 from polhode.derive import Equations
 from polhode.judge.contexts._contexts import follows_from_invariants, holds
+from polhode.judge.contexts._equations import at_given_accelerations
 from polhode.judge.latex._tree import Derivative, Dots, Number, walk
 from polhode.judge.lines._judged_line import JudgedLine, differs_by_a_constant
 from polhode.judge.meaning._bindings import restrictions
@@ -157,11 +158,13 @@ def says_nothing(claim: BoundClaim) -> bool:
     Where that cannot be decided, it is taken to say nothing.
     """
     states = claim.states(TrueMotion)
-    sides = (side for c in claim.components() for side in (c.left, c.right))
+    sides = [side for c in claim.components() for side in (c.left, c.right)]
+    found = [term for side in sides for term in terms(side)]
     try:
-        return all(states.vanishing(term).is_zero for side in sides for term in terms(side))
+        return all(states.vanishing(term).is_zero for term in found)
     except NumericError:
-        return True
+        value = at_given_accelerations(claim)
+        return value is None or not any(map(value, found))
 
 
 def terms(side: Expr) -> Iterator[Expr]:
