@@ -75,3 +75,12 @@ export function painted(): Promise<void> {
     setTimeout(done, LATEST);
   });
 }
+
+/** Numbers with as many digits as needed to distinguish them. */
+export function apart(ticks: number[], fewest = 4): string[] {
+  for (let count = fewest; count < 15; count++) {
+    const told = ticks.map((tick) => digits(tick, count));
+    if (new Set(told).size === new Set(ticks).size) return told;
+  }
+  return ticks.map(String);
+}

@@ -2,7 +2,7 @@
 
 import uPlot from "uplot";
 import type { Clock } from "./clock";
-import { digits, drawn, formula, make } from "./dom";
+import { apart, digits, drawn, formula, make } from "./dom";
 import { type Envelope, envelopeOf, extremes } from "./envelope";
 import { Inset } from "./inset";
 import { type PanelData, Rows } from "./scene";
@@ -272,15 +272,6 @@ function levelled(values: Float32Array): Float32Array {
   const high = values.reduce((a, b) => Math.max(a, b), -Infinity);
   const flat = high - low <= FLAT * Math.max(Math.abs(low), Math.abs(high));
   return flat ? new Float32Array(values.length).fill((low + high) / 2) : values;
-}
-
-/** Numbers with as many digits as needed to distinguish them. */
-function apart(ticks: number[]): string[] {
-  for (let count = 4; count < 15; count++) {
-    const told = ticks.map((tick) => digits(tick, count));
-    if (new Set(told).size === new Set(ticks).size) return told;
-  }
-  return ticks.map(String);
 }
 
 /** Number of characters of the longest label. */

@@ -2,13 +2,14 @@
 
 import { Quaternion, Vector3 } from "three";
 import type { Clock } from "./clock";
-import { digits, drawn, formula, make } from "./dom";
+import { apart, drawn, formula, make } from "./dom";
 import { extremes } from "./envelope";
 import { Pose } from "./pose";
 import { type BodyData, type PortraitData, Rows, type Triple } from "./scene";
 
 const [WIDTH, HEIGHT] = [240, 160];
-const [LEFT, RIGHT, TOP, BOTTOM] = [42, 10, 8, 20]; // of the frame of a plane, pixels
+const [LEFT, RIGHT, TOP, BOTTOM] = [42, 10, 8, 20]; // of the frame of a plane, pixels; more to the left for long numbers
+const WIDE = 6; // of a digit, pixels
 const MARGIN = 0.06; // of the range, on either side
 const ROUND = 66; // radius of a sphere
 const [TALL, MIDDLE] = [184, 98]; // of the picture of a sphere
@@ -84,7 +85,8 @@ class PlanePortrait implements Portrait {
     this.columns = columnsOf(data);
     this.curve = data.curve.map((column) => new Rows(column).data);
     const [across, up] = this.ranges();
-    this.place = (x, y) => [LEFT + ((x - across[0]) / (across[1] - across[0])) * (WIDTH - LEFT - RIGHT), HEIGHT - BOTTOM - ((y - up[0]) / (up[1] - up[0])) * (HEIGHT - TOP - BOTTOM)];
+    const left = Math.max(LEFT, 12 + WIDE * Math.max(...apart(round(up), 3).map((text) => text.length)));
+    this.place = (x, y) => [left + ((x - across[0]) / (across[1] - across[0])) * (WIDTH - left - RIGHT), HEIGHT - BOTTOM - ((y - up[0]) / (up[1] - up[0])) * (HEIGHT - TOP - BOTTOM)];
     const picture = drawn("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}` }, ...this.ticks(across, up), ...this.lines(), this.drop, this.dot);
     const units = data.units.map((unit) => (unit ? ` (${unit})` : ""));
     const [first, second] = data.symbols.map((symbol) => formula(symbol));
@@ -142,10 +144,12 @@ class PlanePortrait implements Portrait {
   /** The frame, and the ends and the middle of both ranges. */
   private ticks(across: Point, up: Point): SVGElement[] {
     const label = (text: string, x: number, y: number, anchor: string): SVGElement => drawn("text", { x, y, "text-anchor": anchor }, text);
-    const frame = drawn("rect", { x: LEFT, y: TOP, width: WIDTH - LEFT - RIGHT, height: HEIGHT - TOP - BOTTOM, class: "frame" });
-    const marks = round(across).map((x) => label(digits(x, 3), this.place(x, up[0])[0], HEIGHT - 7, "middle"));
-    const heights = round(up).map((y) => label(digits(y, 3), LEFT - 5, this.place(across[0], y)[1] + 4, "end"));
-    const zero = up[0] < 0 && up[1] > 0 ? [drawn("path", { d: `M${LEFT} ${this.place(0, 0)[1]}H${WIDTH - RIGHT}`, class: "frame" })] : [];
+    const [left] = this.place(across[0], up[0]);
+    const frame = drawn("rect", { x: left, y: TOP, width: WIDTH - left - RIGHT, height: HEIGHT - TOP - BOTTOM, class: "frame" });
+    const told = (values: number[], put: (text: string, value: number) => SVGElement): SVGElement[] => apart(values, 3).map((text, i) => put(text, values[i]));
+    const marks = told(round(across), (text, x) => label(text, this.place(x, up[0])[0], HEIGHT - 7, "middle"));
+    const heights = told(round(up), (text, y) => label(text, left - 5, this.place(across[0], y)[1] + 4, "end"));
+    const zero = up[0] < 0 && up[1] > 0 ? [drawn("path", { d: `M${left} ${this.place(0, 0)[1]}H${WIDTH - RIGHT}`, class: "frame" })] : [];
     return [frame, ...zero, ...marks, ...heights];
   }
 }
