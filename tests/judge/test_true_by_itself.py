@@ -20,9 +20,12 @@ def marks(text, equations):
     return [line.mark for line in ph.review(text, equations, format=".md").lines]
 
 
-def test_a_definition_that_is_printed_again_is_not_judged(rod):
-    text = r"Put $\beta = \theta/2$. So we have $$\beta = \theta/2.$$"
+def test_an_angle_up_to_turns_says_nothing_again(rod):
+    """It defines n; what gives a letter may be the answer that is asked for."""
+    text = r"So $\theta = \frac{\pi}{2} + n\pi$. Answer: $$\theta = \frac{\pi}{2} + n\pi.$$"
     assert marks(text, rod) == [Mark.NOT_JUDGED, Mark.NOT_JUDGED]
+    text = r"Let $S = \sqrt{\frac{3g}{2l}}$. Then $$S = \sqrt{\frac{3g}{2l}}.$$"
+    assert marks(text, rod) == [Mark.NOT_JUDGED, Mark.TRUE]
 
 
 def test_what_follows_from_a_doubtful_definition_is_in_doubt(rod):

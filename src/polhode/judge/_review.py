@@ -237,9 +237,14 @@ def _with_letters_of(
 
 
 def _not_claimed_again(judged: JudgedLine, statements: Statements) -> JudgedLine:
-    """A line that repeats word for word what the text has stated: true by that alone."""
+    """A line that repeats word for word what the text has stated: true by that alone.
+
+    What repeats "S = …", by which S was defined, may be the answer that is asked for.
+    """
     printed = judged.line.relation.printed
-    if judged.stated:
+    relation = judged.line.relation.relation
+    gives_letter = relation is not None and relation.sides[0] in judged.defines
+    if judged.stated and not gives_letter:
         repeats = "it repeats what the text has stated"
         again = f"{judged.stated} once more" if judged.defines else repeats
         statements.printed.setdefault(printed, again)
