@@ -4,7 +4,7 @@ import { mkdir, readdir, readFile, writeFile } from "node:fs/promises";
 import { dirname, join, resolve } from "node:path";
 
 const folder = process.argv[2] ?? "built";
-const BUNDLED = ["three", "uplot", "gifenc"];
+const BUNDLED = { "LICENSES.txt": ["three", "uplot"], "LICENSES.live.txt": ["three", "uplot", "gifenc"] };
 const THREE = resolve("node_modules/three");
 const SHADERS = join(THREE, "src/renderers/shaders");
 // of three's materials those that the pages have, what their shadows need, and what the renderer adds to each
@@ -34,7 +34,7 @@ const ABSENT = {
 
 await mkdir(folder, { recursive: true });
 await build({
-  entryPoints: { page: "src/main.ts", frame: "src/frame.ts", lab: "src/lab/main.ts", worker: "src/live/worker.ts" },
+  entryPoints: { page: "src/main.ts", live: "src/live/main.ts", frame: "src/frame.ts", lab: "src/lab/main.ts", worker: "src/live/worker.ts" },
   outdir: folder,
   bundle: true,
   minify: true,
@@ -45,8 +45,10 @@ await build({
   plugins: [{ name: "three", setup: lean }],
   logLevel: "warning",
 });
-const licences = await Promise.all(BUNDLED.map(licence));
-await writeFile(join(folder, "LICENSES.txt"), licences.join("\n"));
+for (const [file, names] of Object.entries(BUNDLED)) {
+  const licences = await Promise.all(names.map(licence));
+  await writeFile(join(folder, file), licences.join("\n"));
+}
 
 /** Bundle three from its sources, without the programs of materials that no page has, and without what is absent. */
 async function lean(bundle) {

@@ -3,7 +3,7 @@
 import pickle
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import polhode as ph
@@ -66,6 +66,7 @@ def test_unusable_letters_are_refused(name, meaning):
 TERMS = st.lists(st.tuples(st.integers(-3, 3), *[st.integers(0, 2)] * 4), min_size=1, max_size=6)
 
 
+@settings(max_examples=40)
 @given(TERMS, st.booleans())
 def test_the_value_is_the_same(terms, is_below):
     """Of sums of products of two angles' functions, a difference and a length."""

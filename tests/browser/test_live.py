@@ -143,6 +143,13 @@ def test_what_the_plots_show_is_saved_as_a_film(disk):
     assert disk.complaints == []
 
 
+def test_licences_travel_with_a_live_page(live):
+    text = live("rolling-disk", "--mu", "0.3", "--duration", "2s").read_text("utf-8")
+    for name in ("three", "uplot", "gifenc"):
+        assert f"\n{name} " in text
+    assert text.count("Permission is hereby granted") == 3
+
+
 def test_the_link_holds_the_motion(opened, live, disk):
     set_field(disk, "theta", "60 deg")
     set_field(disk, "a", "4 cm")

@@ -6,11 +6,9 @@ import { makeFallback } from "./fallback";
 import { Clock, rates } from "./clock";
 import { keys, switches, transport } from "./controls";
 import { NoWebGL } from "./display";
-import type { LiveData } from "./live/model";
-import { LivePage } from "./live/page";
 import { make, painted } from "./dom";
+import { opened } from "./embedded";
 import { Plots } from "./plots";
-import { unpacked } from "./packed";
 import type { SceneData } from "./scene";
 import { Portraits } from "./portraits";
 import { Stage } from "./stage";
@@ -66,24 +64,4 @@ function staged(scene: SceneData, picture: HTMLElement): Stage | null {
   }
 }
 
-function read<T>(id: string): T | null {
-  const text = document.getElementById(id)?.textContent;
-  return text ? (JSON.parse(text) as T) : null;
-}
-
-async function open(packed: string, more: string | null): Promise<void> {
-  const scene = await unpacked<SceneData>(packed).catch(() => null);
-  if (!scene) return refuse();
-  if (more === null) return show(scene);
-  const { live, worker } = await unpacked<{ live: LiveData; worker: string }>(more);
-  await new LivePage(scene, live, worker).open();
-}
-
-/** In a browser that cannot unpack it. */
-function refuse(): void {
-  document.body.append(make("p", {}, "This browser is too old for this page: open it in one that was made since 2023."));
-  document.body.dataset.ready = "yes";
-}
-
-const scene = read<string>("scene");
-if (scene) void open(scene, read<string>("live"));
+void opened<SceneData>(show);

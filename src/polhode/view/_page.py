@@ -100,12 +100,13 @@ def page_of(shown: Scene, live: Mapping[str, Any] | None = None) -> str:
     Args:
         live: what the page needs to compute other motions (`live_document`).
     """
-    script = front_end("page.js")
-    worker = front_end("worker.js") if live else ""
-    licences = front_end("LICENSES.txt").replace("--", "- -")  # which would end the comment
+    name = "live" if live else "page"
+    script, worker = front_end(f"{name}.js"), front_end("worker.js") if live else ""
+    works = front_end("LICENSES.live.txt" if live else "LICENSES.txt")
+    licences = works.replace("--", "- -")  # which would end the comment
     return document(
         shown.title,
-        styled(front_end("page.css")),
+        styled(front_end(f"{name}.css")),
         tag("noscript", tag("p", "This page needs its script to play a motion; please allow it.")),
         scene_element(shown),
         *([json_element("live", packed({"live": live, "worker": worker}))] if live else []),
