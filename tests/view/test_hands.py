@@ -163,6 +163,23 @@ def test_a_bob_comes_as_near_to_a_line_of_sight_as_its_rod_allows():
     assert start["theta"] == pytest.approx(np.pi / 4, abs=1e-5)
 
 
+def test_a_ball_that_is_pushed_into_the_ground_bounces_at_once():
+    """With e = ½ from 2 m/s: up with 1 m/s, for 2/g; nothing is lost but at the impact."""
+    floor = ph.Plane(ph.Frame("lab"))
+    body = ph.sphere("ball", mass=M, radius=A, axes=floor.axes)
+    system = ph.System(ph.Coulomb(body, on=floor, mu=MU, restitution=E), ph.Gravity(G))
+    _, live = live_of(system, "m a g mu e", {"v_x": 1.0})
+    hand = {"kind": "push", "body": 0, "point": [0, 0, VALUES["a"]], "change": [0, 0, -2.0]}
+    numbers = usual_numbers(live)
+    (pushed,) = answers(live, {"numbers": numbers, "frames": 0, "hand": hand})
+    (moved,) = answers(live, {"numbers": numbers | {"begin": pushed["begin"]}, "frames": 201})
+    first, second = moved["computed"]["happenings"][:2]
+    assert (first["time"], first["what"]) == (0, "bounces: flight")
+    assert second["time"] == pytest.approx(2 / 9.81, rel=1e-9)
+    assert moved["computed"]["evidence"][0]["value"] < 1e-12
+    assert moved["computed"]["doubt"] == ""
+
+
 def test_a_ball_in_the_air_is_taken_pushed_and_lands():
     """A push in mid-flight, against the parabola and the law of impact."""
     floor = ph.Plane(ph.Frame("lab"))

@@ -351,7 +351,7 @@ function balance(live: LiveData, motion: Motion): NumberData {
   const work = motion.column(live.work);
   let [drift, scale] = [0, 0];
   energy.forEach((total, i) => {
-    drift = Math.max(drift, Math.abs(total - energy[0] - work[i]));
+    drift = Math.max(drift, Math.abs(total - energy[0] - (work[i] - work[0]))); // an impact at the start has done work
     scale = Math.max(scale, Math.abs(total - potential[i]) + Math.abs(potential[i]) + Math.abs(work[i]));
   });
   return { name: "energy − work done", symbol: "", value: scale ? drift / scale : drift, unit: "", meaning: "against the energy scale" };
