@@ -260,6 +260,7 @@ def test_a_body_is_pushed_in_the_middle_of_its_motion_and_the_link_holds_that(op
 
 def test_a_body_is_moved_to_another_start(disk):
     page = disk.page
+    page.get_by_role("slider", name="Time", exact=True).fill("0")
     before = [
         float(page.locator(f'[data-name="{n}"] input[type=text]').input_value().split()[0])
         for n in "xy"

@@ -48,7 +48,8 @@ export class Hands {
   private use: Use = "view";
   private held: Held | null = null;
   private wanted: [number, number] | null = null;
-  private busy = false;
+  private begun: Promise<void> = Promise.resolve();
+  private working: Promise<void> | null = null;
   private readonly label = make("span", { class: "impulse" });
   private readonly arrow = make("div", { class: "pull", hidden: true }, make("span", { class: "shaft" }), this.label);
 
@@ -102,7 +103,7 @@ export class Hands {
     };
     stage.view.held = true;
     picture.classList.add("dragging");
-    void this.begin(this.held, clock.time);
+    this.begun = this.begin(this.held, clock.time);
   }
 
   /** Start anew from an instant of the motion. */
@@ -112,7 +113,7 @@ export class Hands {
       const found = await this.page.handle(numbers, { kind: "take", time });
       if (time) this.page.restart(found);
       held.numbers = { ...numbers, start: found.start, begin: found.begin };
-      void this.work();
+      await this.work();
     } catch (error) {
       this.page.say((error as Error).message);
       this.drop();
@@ -127,9 +128,12 @@ export class Hands {
   }
 
   /** Bring about what the pointer wants now; what it wanted meanwhile is left out. */
-  private async work(): Promise<void> {
-    if (this.busy) return;
-    this.busy = true;
+  private work(): Promise<void> {
+    this.working ??= this.worked().finally(() => (this.working = null));
+    return this.working;
+  }
+
+  private async worked(): Promise<void> {
     while (this.held?.numbers && this.wanted) {
       const { held, wanted } = this;
       const { numbers } = this.held;
@@ -146,7 +150,6 @@ export class Hands {
         this.page.say((error as Error).message);
       }
     }
-    this.busy = false;
   }
 
   private hand({ body, size, point, aside, pushes }: Held, [x, y]: [number, number]): Hand | null {
@@ -186,7 +189,8 @@ export class Hands {
 
   /** Let go once the last wish is granted; what was pushed moves on. */
   private async finish(plays: boolean): Promise<void> {
-    while (this.wanted || this.busy) await new Promise((done) => setTimeout(done, 16));
+    await this.begun;
+    await this.work();
     this.drop();
     if (plays) this.player.clock?.play();
   }
