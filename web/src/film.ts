@@ -12,7 +12,7 @@ const MOST = 120; // frames
 const SHORTEST = 40; // ms: browsers show a GIF no faster
 
 /**
- * What plays from here to the end, or in the loop, at the present speed; a long motion faster.
+ * The whole motion, or what is played in a loop, at the present speed; a long motion faster.
  *
  * @param tell told how much is done, from 0 to 1.
  */

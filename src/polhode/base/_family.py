@@ -24,13 +24,13 @@ def colour(name: str, *, dark: bool = False) -> str:
     return str(_family()["pages"][name][int(dark)])
 
 
-def series_colours(*, dark: bool = False) -> tuple[str, ...]:
+def series_colours() -> tuple[str, ...]:
     """The colours of lines in plots, which the colour-blind can tell apart (Okabe and Ito)."""
-    return tuple(colour(f"series-{i}", dark=dark) for i in range(4))
+    return tuple(colour(f"series-{i}") for i in range(4))
 
 
 def colours(part: str) -> Mapping[str, str]:
-    """The colours of materials, stills, figures, or of what is seen anywhere, by name."""
+    """The colours of one part of the file by name: materials, stills, figures, anywhere."""
     return _family()[part]  # type: ignore[no-any-return]
 
 

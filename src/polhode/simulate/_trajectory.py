@@ -286,6 +286,13 @@ class Trajectory(Shown):
         is_open = name in self.segments[segment].dynamics.equations.undetermined
         return is_open and name not in self._shared[segment]
 
+    def _is_shared(self, quantity: str | Symbol | Expr, segment: int) -> bool:
+        """Whether it is a reaction that the equations of a mode leave open, though it is known."""
+        if not isinstance(quantity, str):
+            return False
+        is_open = quantity in self.segments[segment].dynamics.equations.undetermined
+        return is_open and quantity in self._shared[segment]
+
     @cached_property
     def _balances(self) -> tuple[BalanceTable | None, ...]:
         """Of each mode the balances of its bodies, where its equations leave reactions open."""
@@ -333,7 +340,7 @@ class Trajectory(Shown):
         for i in occurring(which):
             here = which == i
             open_ = [k for k, quantity in enumerate(wanted) if self._is_open(quantity, int(i))]
-            shared = [k for k, quantity in enumerate(wanted) if quantity in self._shared[i]]
+            shared = [k for k, quantity in enumerate(wanted) if self._is_shared(quantity, int(i))]
             expressions = [
                 _NOTHING if k in (*open_, *shared) else self._expression(quantity, int(i))
                 for k, quantity in enumerate(wanted)

@@ -25,13 +25,13 @@ from polhode.judge.lines._judged_line import (
     differs_by_a_constant,
     holds_in,
     in_context,
+    may_define,
     may_hold_in,
 )
 from polhode.judge.lines._needs import as_approximate
 from polhode.judge.lines._vacuous import is_void, terms
 from polhode.judge.meaning._initial_values import initial_value
 from polhode.judge.meaning._mechanics import is_acceleration
-from polhode.judge.meaning._proposals import OWN
 from polhode.judge.meaning._relations import BoundRelation, ScalarRelation
 from polhode.judge.states._bound_claim import EQUALITY, BoundClaim, Small
 from polhode.judge.states._claim_domain import TrueMotion
@@ -126,10 +126,7 @@ def supposed(
 def _defines_what_is_claimed(found: JudgedLine) -> bool:
     """Whether it holds by taking the letter that it is about as defined there: no hypothesis."""
     relation = found.line.relation.relation
-    if relation is None:
-        return False
-    ways = (way.chosen.get(relation.sides[0]) for way in found.verdict.by_reading)
-    return any(read is not None and read.meaning == OWN for read in ways)
+    return relation is not None and may_define(found.verdict, relation.sides[0])
 
 
 def with_what_stands(judged: JudgedLine, near: Sequence[JudgedLine]) -> JudgedLine:

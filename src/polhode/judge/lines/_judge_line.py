@@ -17,7 +17,13 @@ from polhode.judge.contexts._contexts import holds
 from polhode.judge.latex import read_latex
 from polhode.judge.latex._names import name_of
 from polhode.judge.latex._tree import Name, Node
-from polhode.judge.lines._judged_line import JudgedLine, holds_in, in_context, may_hold_in
+from polhode.judge.lines._judged_line import (
+    JudgedLine,
+    holds_in,
+    in_context,
+    may_define,
+    may_hold_in,
+)
 from polhode.judge.lines._near_steady import under_steady_momenta
 from polhode.judge.lines._needs import as_approximate, sign_needed, unstated_condition
 from polhode.judge.lines._vacuous import (
@@ -28,7 +34,6 @@ from polhode.judge.lines._vacuous import (
 from polhode.judge.lines._weaker_meanings import is_at_end_of_contact, weaker_meanings
 from polhode.judge.meaning._evaluate import FROM_BODY
 from polhode.judge.meaning._meaning import Meaning
-from polhode.judge.meaning._proposals import OWN
 from polhode.judge.meaning._relations import BoundRelation
 from polhode.judge.text._cues import Role
 from polhode.judge.text._in_force import Chosen, is_number, varies
@@ -235,14 +240,10 @@ def _as_called(
     """
     letter = line.statement.relations[0].sides[0]
     called = _CALLED.search(line.cues.words_before)
-    # of a chain, ω = a = b, the rest may hold
-    may_define = any(
-        letter in way.chosen and way.chosen[letter].meaning == OWN
-        for way in found.verdict.by_reading
-    )
     if called is None or letter in chosen or not isinstance(letter, Name):
         return None
-    if not (may_define or found.verdict.answer is Answer.DEFINITION):
+    # of a chain, ω = a = b, the rest may hold
+    if not (may_define(found.verdict, letter) or found.verdict.answer is Answer.DEFINITION):
         return None
     kind = f"{called[1].lower()} of small oscillations"
     vocabulary = line.in_force.notation(equations, {}).vocabulary

@@ -18,6 +18,7 @@ from polhode.judge.latex._tree import Node
 from polhode.judge.meaning._bindings import Bound
 from polhode.judge.meaning._meaning import Meaning
 from polhode.judge.meaning._mechanics import on_constraints
+from polhode.judge.meaning._proposals import OWN
 from polhode.judge.meaning._relations import BoundRelation
 from polhode.judge.states._bound_claim import BoundClaim
 from polhode.judge.text._in_force import Chosen
@@ -72,6 +73,12 @@ class JudgedLine:
             return None if notation is None or bound is None else notation.claimed(bound)
         except (PolhodeError, ZeroDivisionError):
             return None
+
+
+def may_define(verdict: Verdict, letter: Node) -> bool:
+    """Whether one reading of a line takes a letter as the line itself defines it."""
+    ways = (way.chosen.get(letter) for way in verdict.by_reading)
+    return any(read is not None and read.meaning == OWN for read in ways)
 
 
 def in_context(
