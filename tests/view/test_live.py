@@ -337,21 +337,113 @@ def test_a_sheet_given_by_samples_moves_as_in_python(tmp_path):
     assert_same(run, {k: v for k, v in columns.items() if k in states | {"t"}}, 1e-9)
 
 
-def test_loops_that_the_start_has_to_close_have_no_live_page():
-    theta = ph.coordinate("theta")
-    rod = ph.rod("rod", mass=M, length=2 * R, axes=LAB.rotated(theta, "y"), axis="z")
-    system = ph.System(
-        ph.Pivot(rod, at=rod.axes["z"] * -R, only="y z", name="floor"),
-        ph.Pivot(rod, at=rod.axes["z"] * R, only="x", name="wall"),
+# -- closed loops ---------------------------------------------------------------------------------
+
+
+def slider_crank():
+    """A crank, a connecting rod and a piston in its bore; phi follows from theta."""
+    r, b, piston = ph.symbols("r b M", positive=True)
+    theta, phi = ph.coordinates("theta phi")
+    turning, swinging = LAB.rotated(theta, "y"), LAB.rotated(phi, "y")
+    crank = ph.rod("crank", mass=M, length=r, axes=turning, axis="x", tag="c")
+    rod = ph.rod("rod", mass=M, length=b, axes=swinging, axis="x", tag="r")
+    weight = ph.point_mass("piston", mass=piston, axes=LAB, tag="p")
+    return ph.System(
+        ph.Pivot(crank, at=turning["x"] * (-r / 2), name="main bearing"),
+        ph.Hinge(crank, axis="y"),
+        ph.Pivot(
+            rod, at=swinging["x"] * (-b / 2), to=crank.point(turning["x"] * (r / 2)), name="pin"
+        ),
+        ph.Hinge(rod, axis="y"),
+        ph.Pivot(weight, to=rod.point(swinging["x"] * (b / 2)), name="wrist"),
+        ph.Pivot(weight, only="z", name="bore", force="N"),
         ph.Gravity(G),
     )
-    equations = ph.derive(system)
-    if not equations.closures:
-        pytest.fail("the ladder was expected to close a loop")
-    start = {"theta": 0.5}
-    run = ph.simulate(equations, {"m": 1, "R": 0.5, "g": 9.81}, start, 0.2)
-    with pytest.raises(DeclarationError, match="close a loop"):
-        live_document(run, scene(run, frames=11), {})
+
+
+LENGTHS = {"m": 0.4, "M": 0.6, "r": 0.05, "b": 0.16, "g": 9.81}
+
+
+def cranked(parameters, start):
+    """A motion, its live page, and the numbers of the page by name."""
+    run = ph.simulate(slider_crank(), parameters, start, 0.3)
+    live = live_document(run, scene(run, frames=11), dict.fromkeys(start, "0"))
+    return run, live
+
+
+def numbers_with(live, **changed):
+    """The numbers that a page opens with, some of them changed."""
+    numbers = usual_numbers(live)
+    for kind in ("parameters", "start"):
+        names = [slider["name"] for slider in live[kind]]
+        numbers[kind] = [changed.pop(name, v) for name, v in zip(names, numbers[kind], strict=True)]
+    assert not changed
+    return numbers
+
+
+def test_a_loop_is_closed_in_the_page_where_the_start_or_a_length_changes():
+    _, live = cranked(LENGTHS, {"theta": 0.5, "theta_dot": 40.0})
+    assert [live["start"][place]["name"] for place in live["loops"]["solved"]] == ["phi"]
+    numbers = numbers_with(live, theta=2.0, b=0.2, theta_dot=30)
+    (found,) = answers(live, {"numbers": numbers, "frames": 201, "table": True})
+    expected, _ = cranked({**LENGTHS, "b": 0.2}, {"theta": 2.0, "theta_dot": 30})
+    columns = table(found["table"])
+    assert found["end"] == pytest.approx(0.3, rel=1e-12)
+    assert_same(expected, columns, 1e-10)
+
+
+def test_the_page_says_how_far_loops_open():
+    _, live = cranked(LENGTHS, {"theta": 0.5, "theta_dot": 40.0})
+    (shown,) = answers(live, {"numbers": usual_numbers(live), "frames": 51})
+    evidence = {one["name"]: one["value"] for one in shown["computed"]["evidence"]}
+    assert evidence["closed loops"] < 1e-15
+    assert evidence["energy − work done"] < 1e-13
+
+
+def test_lengths_with_which_no_loop_closes_are_refused():
+    _, live = cranked(LENGTHS, {"theta": 0.5, "theta_dot": 40.0})
+    numbers = numbers_with(live, theta=np.pi / 2, b=0.04)
+    (reply,) = replies(live, {"numbers": numbers, "frames": 11})
+    assert "loop does not close" in reply["error"]
+
+
+def test_equal_numbers_have_the_same_configuration_whatever_was_tried_before():
+    """There are two in which the connecting rod closes the loop."""
+    _, live = cranked(LENGTHS, {"theta": 0.5, "theta_dot": 40.0})
+    wanted = {"numbers": numbers_with(live, theta=-2.0), "frames": 2, "table": True}
+    around = {"numbers": numbers_with(live, theta=9.0), "frames": 2, "table": True}
+    first, _, again = answers(live, wanted, around, wanted)
+    assert first["table"] == again["table"]
+
+
+# -- what may only push or pull -------------------------------------------------------------------
+
+
+def bob_on_a_rope():
+    bob = ph.point_mass("bob", mass=M, axes=LAB)
+    rope = ph.Rope([bob.point(), LAB.zero], name="string")
+    return ph.System(ph.Pivot(bob, only="y", name="plane"), rope, ph.Gravity(G))
+
+
+def test_a_rope_that_goes_slack_ends_the_motion_of_a_page():
+    """From the lowest point with v² = 3 g R it does at a third of the radius above the middle."""
+    values = {"m": 2.0, "g": 9.81}
+    start = {"x": 0.0, "z": -0.5, "v_x": (3 * 9.81 * 0.5) ** 0.5}
+    run = ph.simulate(bob_on_a_rope(), values, start, 0.2)
+    live = live_document(run, scene(run, frames=11), dict.fromkeys(start, "0"))
+    numbers = usual_numbers(live) | {"duration": 2.0}
+    (found,) = answers(live, {"numbers": numbers, "frames": 51, "table": True})
+    assert found["ending"] == {"kind": "event", "what": "string goes slack"}
+    assert table(found["table"])["z"][-1] == pytest.approx(0.5 / 3, rel=1e-10)
+
+
+def test_a_start_that_a_rope_would_have_to_push_is_refused():
+    values = {"m": 2.0, "g": 9.81}
+    run = ph.simulate(bob_on_a_rope(), values, {"x": 0.0, "z": -0.5, "v_x": 1.0}, 0.2)
+    live = live_document(run, scene(run, frames=11), {"z": "0"})
+    numbers = numbers_with(live, z=0.45, v_x=0.1)
+    (reply,) = replies(live, {"numbers": numbers, "frames": 51})
+    assert reply["error"] == "string goes slack at the start."
 
 
 # -- the picture ----------------------------------------------------------------------------------

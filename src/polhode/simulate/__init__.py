@@ -18,6 +18,7 @@ from polhode.simulate._page_kernels import coefficients as coefficients
 from polhode.simulate._page_kernels import kernel_code as kernel_code
 from polhode.simulate._page_kernels import onset_collocation as onset_collocation
 from polhode.simulate._page_kernels import page_kernels as page_kernels
+from polhode.simulate._page_kernels import page_loops as page_loops
 from polhode.simulate._simulate import NEAR_FLAT as NEAR_FLAT
 from polhode.simulate._simulate import Experiment as Experiment
 from polhode.simulate._simulate import simulate as simulate

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from math import inf, isfinite, pi, remainder
 from typing import Any, TypedDict
 
@@ -54,6 +54,26 @@ def close(
     refuse_zero_gradients(dynamics, places, parameters)
     _refuse_dead_point(dynamics, places, parameters)
     return places, assumed
+
+
+def determined_by_loops(
+    dynamics: Dynamics, places: Numbers, parameters: Numbers, given: Collection[str] = ()
+) -> tuple[Symbol, ...]:
+    """Coordinates that follow from the others where the loops are closed.
+
+    Args:
+        dynamics: the equations.
+        places: all coordinates, of a configuration in which the loops are closed.
+        parameters: values.
+        given: names of coordinates that are to be chosen, as far as the loops leave them free.
+    """
+    loop, here = _Loop(dynamics, {}, tuple(places), parameters), np.array(list(places.values()))
+    by_name = [(q.published in given, q) for q in reversed(tuple(places))]
+    found = list[Symbol]()
+    for _, q in sorted(by_name, key=lambda one: one[0]):
+        if loop.rank(here, _FOLDED, [*found, q]) > len(found):
+            found.append(q)
+    return tuple(q for q in places if q in found)
 
 
 # -- dead points -----------------------------------------------------------------------------------
@@ -289,22 +309,27 @@ class _Loop:
         """Whether it is on the side of the equations, and how many coordinates are determined."""
         return bool(np.all(self._sides(place) > 0)), self.rank(place, _DOUBLE)
 
-    def rank(self, place: Array, smallest: float | None = None) -> int:
+    def rank(
+        self, place: Array, smallest: float | None = None, among: Sequence[Symbol] | None = None
+    ) -> int:
         """How many coordinates the loops determine there.
 
         Args:
             place: values of the free coordinates.
             smallest: share of the largest singular value that is not rounding.
+            among: which coordinates; by default all free ones.
         """
         if not self._free:
             return 0
         if smallest is None:
             smallest = max(len(self._closures), len(self._free)) * float(np.finfo(float).eps)
-        return int(np.count_nonzero(self.singular_values(place) > smallest))
+        return int(np.count_nonzero(self.singular_values(place, among) > smallest))
 
-    def singular_values(self, place: Array) -> Array:
+    def singular_values(self, place: Array, among: Sequence[Symbol] | None = None) -> Array:
         """Of the Jacobian, in terms of the largest there or elsewhere; zero if not finite."""
-        jacobian, elsewhere = self._jacobian(place), self._jacobian(self._general)
+        columns = [self._free.index(q) for q in (self._free if among is None else among)]
+        jacobian = self._jacobian(place)[:, columns]
+        elsewhere = self._jacobian(self._general)
         if not np.all(np.isfinite(jacobian)):
             return np.zeros(min(jacobian.shape))
         found = np.linalg.svd(jacobian, compute_uv=False)

@@ -12,7 +12,7 @@ several contacts it has the mode that a motion starts in, and ends where that do
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -22,9 +22,11 @@ import numpy as np
 from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import ConstraintError, DeclarationError
 from polhode.derive import Automaton, Equations, Guard, Mode, automaton
-from polhode.model import FRICTIONLESS, SLIDING, Contact, Coulomb, Rolling, System
+from polhode.model import FRICTIONLESS, SLIDING, Contact, Coulomb, Rolling, Rope, System
+from polhode.simulate._closed_loops import determined_by_loops
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
 from polhode.simulate._export_kernel import normal_forces
+from polhode.simulate._independent_speeds import SpeedChoices
 from polhode.simulate._simulate import NEAR_FLAT
 from polhode.simulate._task import AS_DECLARED
 from polhode.simulate._trajectory import Trajectory
@@ -223,12 +225,13 @@ def _in_base64(content: bytes) -> str:
     return b64encode(content).decode("ascii")
 
 
-def page_kernels(run: Trajectory, formulas: Mapping[Symbol, Expr]) -> PageKernels:
+def page_kernels(run: Trajectory, formulas: Mapping[Symbol, Expr], loops: PageLoops) -> PageKernels:
     """The kernels for motions like one that has been followed.
 
     Args:
         run: the motion.
         formulas: parameters that follow from others.
+        loops: its closed loops.
 
     Raises:
         DeclarationError: for a motion that a page cannot compute by itself, with the reason.
@@ -236,7 +239,7 @@ def page_kernels(run: Trajectory, formulas: Mapping[Symbol, Expr]) -> PageKernel
     _refuse(run)
     system, first, schedule = run.system, run.segments[0], _schedule(run)
     if first.mode == AS_DECLARED or not isinstance(system, System) or not system.contacts:
-        return PageKernels((_only(run),), None, formulas, schedule)
+        return PageKernels((_only(run, loops),), None, formulas, schedule)
     modes = automaton(system)
     begins = modes.mode(modes.named(first.mode))
     if len(modes.contacts) > 1:
@@ -258,13 +261,44 @@ def page_kernels(run: Trajectory, formulas: Mapping[Symbol, Expr]) -> PageKernel
     return PageKernels(tuple(found), contact, formulas, schedule)
 
 
+@dataclass(frozen=True)
+class PageLoops:
+    """Closed loops, in the coordinates of the mode in which a motion starts.
+
+    Attributes:
+        gaps: expressions that are zero where the loops are closed.
+        solved: coordinates that follow from the others.
+        slopes: derivatives of the gaps by these, gap by gap.
+    """
+
+    gaps: tuple[Expr, ...]
+    solved: tuple[Symbol, ...]
+    slopes: tuple[Expr, ...]
+
+
+def page_loops(run: Trajectory, given: Collection[str]) -> PageLoops:
+    """The closed loops of a motion.
+
+    Args:
+        run: the motion.
+        given: names of coordinates that are to be chosen, as far as the loops leave them free.
+    """
+    first, now = run.segments[0], np.zeros(1)
+    dynamics, gaps, names = run.dynamics, run.equations.closures, run.equations.coordinates
+    if not gaps:
+        return PageLoops((), (), ())
+    here = first.values([Expr.generator(q) for q in names], now)[:, 0]
+    numbers = dict(zip(dynamics.parameters, first.parts[0].constants.tolist(), strict=True))
+    places = dict(zip(names, here.tolist(), strict=True))
+    solved = determined_by_loops(dynamics, places, numbers, given)
+    return PageLoops(gaps, solved, tuple(gap.diff(q) for gap in gaps for q in solved))
+
+
 def _refuse(run: Trajectory) -> None:
     """Refuse what the kernel has no program for."""
     dynamics = run.dynamics
     because = ""
-    if run.equations.closures:
-        because = "coordinates at the start have to close a loop"
-    elif dynamics.undecided or dynamics.sides:
+    if dynamics.undecided or dynamics.sides:
         because = "an absolute value changes its side"
     if because:
         raise _impossible(run, because)
@@ -306,16 +340,46 @@ def _schedule(run: Trajectory) -> Schedule:
     return Schedule(symbols, tuple(times), tuple(values), tuple(jumps))
 
 
-def _only(run: Trajectory) -> PageMode:
+def _only(run: Trajectory, loops: PageLoops) -> PageMode:
     """The mode of equations that have no other."""
-    dynamics, equations = run.dynamics, run.equations
+    dynamics = _on_chosen_rates(run.dynamics, loops)
+    equations = dynamics.equations
     assert isinstance(equations, Equations)
     if WORK not in dynamics.auxiliary:
         dynamics = replace(dynamics, auxiliary={**dynamics.auxiliary, WORK: equations.power})
     sides = (Watched("goes flat", True, s - NEAR_FLAT) for s in equations.assumed_positive)
     forces = (Watched(f"{c} lifts off", True, force) for c, force in normal_forces(equations))
+    watched = (*sides, *forces, *_one_sided(equations))
     joined = {"begin": (Expr.of(0),) * len(dynamics.auxiliary), "masses": _masses(equations)}
-    return PageMode(AS_DECLARED, "", False, None, dynamics, (*sides, *forces), joined)
+    joined["watched"] = tuple(one.positive for one in watched)
+    return PageMode(AS_DECLARED, "", False, None, dynamics, watched, joined)
+
+
+def _on_chosen_rates(dynamics: Dynamics, loops: PageLoops) -> Dynamics:
+    """The equations on the rates of the coordinates that are chosen, where loops are closed.
+
+    A page does not go over to other independent speeds on the way. The crank of an engine turns on
+    where the rate of its connecting rod is zero.
+    """
+    equations = dynamics.equations
+    free = (q for q in equations.coordinates if q not in loops.solved)
+    rates = tuple(q.derivative() for q in free)
+    known = {*equations.speeds, *equations.dependent}
+    differ = set(rates) != set(equations.speeds)
+    if loops.solved and differ and len(rates) == len(equations.speeds) and known >= set(rates):
+        return SpeedChoices(dynamics).on(rates)
+    return dynamics
+
+
+def _one_sided(equations: Equations) -> Iterator[Watched]:
+    """Ropes and joints that only push or only pull, with forces that are determined."""
+    for element in equations.system.elements:
+        if isinstance(element, Rope):
+            (tension,) = (r.name for r in equations.kinetics.restraints[element.name])
+            if tension in equations.components:
+                yield Watched(f"{element.name} goes slack", True, equations.components[tension])
+        elif not isinstance(element, Contact) and element.push in equations.components:
+            yield Watched(f"{element.name} pulls", True, equations.components[element.push])
 
 
 def _page_mode(run: Trajectory, modes: Automaton, mode: Mode) -> PageMode:
@@ -330,6 +394,7 @@ def _page_mode(run: Trajectory, modes: Automaton, mode: Mode) -> PageMode:
         name = f"{guard.contact.name} " if guard.contact is not None and several else ""
         kind = name + (guard.ends or guard.kind)
         watched.append(Watched(kind, bool(guard.ends), _vanishing(guard, dynamics)))
+    watched += _one_sided(mode.equations)
     phase, touched = mode.phases[0], mode.touches[0].contact
     known = dict(_begins(mode))
     begin = tuple(known.get(s, Expr.of(0)) for s in dynamics.auxiliary)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from types import MappingProxyType
 from typing import Any
 
@@ -26,6 +27,7 @@ from polhode.simulate import (
     kernel_code,
     onset_collocation,
     page_kernels,
+    page_loops,
 )
 from polhode.view._controls import (
     Control,
@@ -149,14 +151,16 @@ def live_document(
         DeclarationError: for a motion that a page cannot compute by itself, with the reason.
     """
     formulas = _formulas(run, written)
-    kernels = page_kernels(run, formulas)
+    loops = page_loops(run, written)
+    kernels = page_kernels(run, formulas, loops)
     pi = Symbol("pi", SymbolKind.PARAMETER)
     outputs = _Outputs(kernels.modes, frozenset((*kernels.parameters, *formulas, pi)))
     contact = kernels.contact
     laws = {} if contact is None else coefficients(contact)
-    start = list(_start(run, shown, written))
+    start = list(_start(run, kernels, shown, written))
     sliders = list(_parameters(run, kernels, shown, written))
-    states = [*equations_of(run).coordinates, *equations_of(run).speeds]
+    own = kernels.modes[0].equations
+    states = [*own.coordinates, *own.speeds]
     document = {
         "system": run.equations.system.name,
         "duration": duration or run.duration,
@@ -188,6 +192,11 @@ def live_document(
         "contact": None if contact is None else contact.name,
         "law": {name: outputs.numbers([value])[0] for name, value in laws.items()},
         "friction": _friction(laws, kernels),
+        "loops": {
+            "gaps": outputs.columns(partial(_gaps, len(loops.gaps)), len(loops.gaps)),
+            "solved": [own.coordinates.index(q) for q in loops.solved],
+            "slopes": outputs.numbers(loops.slopes),
+        },
         "radau": onset_collocation() if isinstance(contact, Coulomb) else None,
         "drawn": _drawn(run, shown, outputs, kernels),
     }
@@ -204,6 +213,11 @@ def _friction(laws: Mapping[str, Expr], kernels: PageKernels) -> str:
     limit = laws.get("mu_static", laws.get("mu"))
     symbol = None if limit is None else limit.symbol
     return symbol.published if symbol in kernels.chosen else ""
+
+
+def _gaps(count: int, equations: Equations) -> tuple[Expr, ...] | None:
+    """The closures of a mode that has as many loops as the first."""
+    return equations.closures if len(equations.closures) == count else None
 
 
 def _is_timed(equations: Equations) -> bool:
@@ -268,13 +282,19 @@ def _parameters(
         yield _slider(symbol, text, unit, meanings.get(name, ""), value, positive=is_positive)
 
 
-def _start(run: Trajectory, shown: Scene, written: Written) -> Iterator[Control]:
+def _start(
+    run: Trajectory, kernels: PageKernels, shown: Scene, written: Written
+) -> Iterator[Control]:
     """Sliders of the coordinates and speeds at the start, in the order of the kernels."""
-    equations, state = equations_of(run), run.segments[0].state(0.0)
+    equations = kernels.modes[0].equations
+    own = (*equations.coordinates, *equations.speeds)
+    state = dict(run.segments[0].state(0.0))
+    others = [s.published for s in own if s.published not in state]
+    state |= {name: values[0] for name, values in run.table(others, [0.0]).items()}
     # dense output is a series, whose rounding leaves about 1e-16 where a start is zero
     state |= {number.name: 0.0 for number in shown.start if not number.value}
     found: list[Control] = []
-    for symbol in (*equations.coordinates, *equations.speeds):
+    for symbol in own:
         name = symbol.published
         dimension = equations.dimensions.get(symbol.base(), PURE) / TIME**symbol.order
         unit = "deg" if dimension == PURE else plain_unit(dimension)

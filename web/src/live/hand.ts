@@ -141,11 +141,12 @@ function changed(engine: Engine, live: LiveData, before: Vector, hand: Hand): { 
     const { sight, size } = hand;
     const height = joined.kinematics?.slice(0, 1) ?? [];
     const rests = height.some((place) => Math.abs(outputs([place], before)[0]) < TOUCHES * size);
+    const held = [...(rests ? height : []), ...live.loops.gaps];
     const isAngle = (name: string): boolean => live.start.some((slider) => slider.name === name && (!slider.unit || slider.unit in ANGLES));
     const all = coordinates.map((_, i) => i);
     const lengths = all.filter((i) => !isAngle(coordinates[i]));
     const scales = before.map((_, i) => (lengths.includes(i) ? size : 1));
-    const shown = [...body.place, ...(rests ? height : [])];
+    const shown = [...body.place, ...held];
     return { begin: moved((at) => outputs(shown, at), before, lengths.length ? [lengths, all] : [all], scales, sight, size), impulse: 0 };
   }
   const [where, speeds] = [before.slice(0, coordinates.length), before.slice(coordinates.length)];

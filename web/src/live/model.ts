@@ -153,6 +153,8 @@ export interface LiveData {
   law: Record<string, number>;
   /** The parameter that bounds static friction; empty where none does by itself. */
   friction: string;
+  /** Closed loops: outputs that are zero, places in `start` of coordinates that they determine, derivatives by these. */
+  loops: { gaps: Outputs; solved: number[]; slopes: Outputs };
   radau: RadauData | null;
   drawn: Drawn;
   code: string;

@@ -122,6 +122,12 @@ export class Modes {
     return out;
   }
 
+  /** Outputs of the first mode at its coordinates and speeds. */
+  shownAtStart(own: Vector, outputs: number[]): Vector {
+    const values = this.values(0, this.filled(0, own), 0);
+    return outputs.map((output) => values[output]);
+  }
+
   private joined(mode: number, name: string, state: Vector, time: number): Vector {
     const outputs = this.data(mode).joined[name];
     if (!outputs) return [];
@@ -211,6 +217,14 @@ export class Modes {
     const isSymmetric = masses.every((row, i) => row.every((entry, k) => entry === masses[k][i]));
     const minors = masses.map((_, i) => determinant(masses.slice(0, i + 1).map((row) => row.slice(0, i + 1))));
     if (isSymmetric && minors.some((minor) => minor <= 0)) throw new NoModeError("The mass matrix is not positive definite at the start: masses, moments of inertia and lengths have to be positive.");
+  }
+
+  /** Refuse a start that is beyond what ends a mode which has no other. */
+  refuseEnded(mode: number, state: Vector): void {
+    const values = this.joined(mode, "watched", state, 0);
+    const size = Math.max(...values.map(Math.abs));
+    const ended = values.findIndex((value) => value < -TOLERANCE * size);
+    if (ended >= 0) throw new NoModeError(`${this.data(mode).watched[ended].kind} at the start.`);
   }
 
   /** Refuse coefficients that no contact has. */

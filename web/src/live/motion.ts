@@ -4,6 +4,7 @@ import { BROKEN, compiled, FALL, GOING, type Kernel } from "./kernel";
 import type { ModeSpan } from "../scene";
 import type { LiveData, Numbers } from "./model";
 import { NoModeError } from "./errors";
+import { Loops } from "./loops";
 import { type Entry, Modes } from "./modes";
 import { Onset, type Step } from "./onset";
 
@@ -94,12 +95,14 @@ export class Motion {
 
 export class Engine {
   private readonly modes: Modes;
+  private readonly loops: Loops;
 
   private constructor(
     private readonly live: LiveData,
     module: WebAssembly.Module,
   ) {
     this.modes = new Modes(live, module);
+    this.loops = new Loops(live, this.modes);
   }
 
   static async of(live: LiveData): Promise<Engine> {
@@ -108,10 +111,21 @@ export class Engine {
 
   /** The motion with some numbers, at so many instants. Throws, in words, for a start that is impossible. */
   follow(numbers: Numbers, frames: number): Motion {
-    this.modes.begin(numbers.parameters);
-    const course = new Course(this.live, this.modes, numbers.duration);
-    course.run(numbers);
-    return this.sampled(course, frames);
+    return this.sampled(this.course(numbers, numbers.duration), frames);
+  }
+
+  private course(numbers: Numbers, duration: number): Course {
+    const start = this.closed(numbers);
+    const course = new Course(this.live, this.modes, duration);
+    course.run({ ...numbers, start });
+    return course;
+  }
+
+  /** The start with closed loops, and its parameters taken. */
+  private closed(numbers: Numbers): number[] {
+    const start = numbers.begin ? numbers.start : this.loops.closed(numbers);
+    this.begin(numbers.parameters);
+    return start;
   }
 
   /** Take the parameters of a motion. */
@@ -127,17 +141,17 @@ export class Engine {
   /** The coordinates and speeds of the widest mode in a motion at an instant. */
   takenAt(numbers: Numbers, time: number): number[] {
     const isOnly = this.live.contact === null;
-    if (!time && (isOnly || numbers.begin)) return numbers.begin ?? numbers.start;
-    this.begin(numbers.parameters);
-    const { mode, state } = time ? this.reached(numbers, time) : this.modes.initial(numbers.start);
+    if (!time && numbers.begin) return numbers.begin;
+    const start = this.closed(numbers);
+    if (!time && isOnly) return start;
+    const { mode, state } = time ? this.reached(numbers, time) : this.modes.initial(start);
     if (isOnly) return state.slice(0, this.live.start.length);
     const { coordinates, speeds } = this.modes.shared(mode, state, time);
     return [...coordinates, ...speeds];
   }
 
   private reached(numbers: Numbers, time: number): { mode: number; state: number[] } {
-    const course = new Course(this.live, this.modes, time);
-    course.run(numbers);
+    const course = this.course(numbers, time);
     const { mode, steps, start } = course.stretches[course.stretches.length - 1];
     const step = steps[steps.length - 1];
     return { mode, state: step ? Array.from(step.at((course.end - step.begin) / step.length)) : start };
@@ -223,6 +237,7 @@ class Course {
   private only(start: number[]): Entry {
     const state = this.modes.whole(0, start, 0);
     this.modes.refuseImpossibleMasses(0, state);
+    this.modes.refuseEnded(0, state);
     return { mode: 0, time: 0, state };
   }
 

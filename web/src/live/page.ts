@@ -83,7 +83,8 @@ export class LivePage implements Handling {
     };
     this.sliders = [];
     const presets = this.presets();
-    const [usual, extra] = [false, true].map((hidden) => live.start.filter((control) => control.extra === hidden));
+    const free = live.start.filter((_, i) => !live.loops.solved.includes(i));
+    const [usual, extra] = [false, true].map((hidden) => free.filter((control) => control.extra === hidden));
     const formulas = live.formulas.map(({ symbol, formula: value }) => make("p", { class: "follows" }, formula(symbol), " = ", formula(value)));
     const reset = make("button", { type: "button", class: "switch" }, "Reset");
     reset.addEventListener("click", () => this.reset());
@@ -201,6 +202,8 @@ export class LivePage implements Handling {
     const values = (kind: "parameters" | "start"): number[] => {
       const controls = live[kind];
       const unknown = [...chosen[kind].keys()].find((name) => !controls.some((control) => control.name === name));
+      const follows = kind === "start" && live.loops.solved.map((place) => controls[place].name).find((name) => chosen.start.has(name));
+      if (follows) throw new Error(`${follows} follows from the other coordinates, by the loop that the bodies close.`);
       if (unknown) throw new Error(`${live.system} has no ${kind === "start" ? "coordinate or speed" : "parameter"} ${unknown}.`);
       return controls.map((control) => valueOf(control, chosen[kind].get(control.name)));
     };

@@ -34,6 +34,7 @@ export function pictured(live: LiveData, engine: Engine, motion: Motion): Comput
   const reaches = Math.max(...bodies.map(reach));
   const contacts = drawn.contacts.map((contact) => new Contact(contact, motion));
   const imbalance = balance(live, motion);
+  const gaps = loopsOf(live, motion);
   const supports = contacts.filter(({ drawn: { kind } }) => kind !== null).map((contact) => supported(contact, motion, engine, reaches));
   return {
     duration: motion.end,
@@ -49,7 +50,7 @@ export function pictured(live: LiveData, engine: Engine, motion: Motion): Comput
     traces: [...contacts.flatMap((contact) => contact.traces()), ...bodies.flatMap(pathsOf)],
     panels: drawn.panels.map((panel) => panelled(panel, motion)),
     portraits: drawn.portraits.map((portrait) => portrayed(portrait, motion)),
-    evidence: [imbalance],
+    evidence: [imbalance, ...gaps],
     doubt: doubtAbout(imbalance.value, motion.steps),
     modes: motion.modes,
     happenings: motion.happenings.slice(0, EVENTS).map(({ time, kind, mode }) => ({ time, what: `${kind}: ${mode}` })),
@@ -336,6 +337,13 @@ function portrayed({ kind, title, names, symbols, units, values, body, axis }: L
     body,
     axis,
   };
+}
+
+/** How far closed loops open, if there are any. */
+function loopsOf(live: LiveData, motion: Motion): NumberData[] {
+  const { gaps } = live.loops;
+  if (!gaps.length) return [];
+  return [{ name: "closed loops", symbol: "", value: largestOf(motion.rows(gaps)), unit: "m", meaning: "largest gap" }];
 }
 
 /** Why a motion cannot be relied on: an imbalance that rounding does not explain, as _validity.py in polhode.simulate has it. */
