@@ -15,6 +15,7 @@ from polhode.judge._verdict import Answer, Verdict
 from polhode.judge.latex._names import spelled
 from polhode.judge.latex._tree import Name, Node, Number
 from polhode.judge.lines._judged_line import JudgedLine
+from polhode.judge.text._text_line import TextLine
 
 #: The changes of an author who slips. A term or a factor more or less, or another letter, is none:
 #: some change of that kind makes nearly any line hold.
@@ -38,6 +39,7 @@ _SLIPS = frozenset(
         ),
     }
 )
+_INERTIA = "inertia"
 #: Nouns of the quantities that texts introduce by name: "the kinetic energy is T = ...".
 _NOUNS = (
     "kinetic energy",
@@ -50,7 +52,7 @@ _NOUNS = (
     "torque",
     "acceleration",
     "velocity",
-    "inertia",
+    _INERTIA,
     "period",
     "frequency",
     "force",
@@ -92,13 +94,13 @@ class ClosedLetters:
         Those of the declaration, those that the text defines, and those that the sentence calls by
         the name of their quantity are closed.
         """
-        words = judged.line.cues.words_before.lower()
         left = (
             f"{spelled(letter)} as {phrase}"
             for letter, phrase in _read_by_usage(judged)
-            if (letter, phrase) not in self._confirmed and not _is_named(phrase, words)
+            if (letter, phrase) not in self._confirmed
+            and not _is_named(letter, phrase, judged.line)
         )
-        return tuple(dict.fromkeys(left))
+        return tuple(dict.fromkeys([*left, *_forces_at_odds(judged)]))
 
 
 def _read_by_usage(judged: JudgedLine) -> Iterator[tuple[Node, str]]:
@@ -115,10 +117,31 @@ def _read_by_usage(judged: JudgedLine) -> Iterator[tuple[Node, str]]:
                 yield reading.letter, reading.phrase
 
 
-def _is_named(phrase: str, words: str) -> bool:
-    """Whether words have the noun for what a phrase says: "the kinetic energy is"."""
+def _forces_at_odds(judged: JudgedLine) -> Iterator[str]:
+    """Reactions in a line whose terms differ in dimension: the text may mean another force.
+
+    The reaction of a constraint in coordinates is a force or a couple as its rate has it.
+    """
+    notation = judged.judgement.notation
+    if notation is None or not judged.verdict.at_odds:
+        return
+    mechanics = notation.vocabulary.mechanics
+    for name in dict.fromkeys(judged.line.letters):
+        is_own = name in notation.vocabulary.stated or not isinstance(name, Name)
+        if not is_own and mechanics.published(name) in mechanics.equations.reaction_names:
+            yield f"{spelled(name)} as declared"
+
+
+def _is_named(letter: Node, phrase: str, line: TextLine) -> bool:
+    """Whether words have the noun for what a phrase says: "the kinetic energy is".
+
+    Of a moment of inertia that the line gives, the sentence before may.
+    """
     noun = next((noun for noun in _NOUNS if noun in phrase), "")
-    return bool(noun) and noun in words
+    if noun and noun in line.cues.words_before.lower():
+        return True
+    is_given = letter in (relation.sides[0] for relation in line.statement.relations)
+    return noun == _INERTIA and is_given and f"moment of {noun}" in line.cues.two_sentences.lower()
 
 
 def evidence(judged: JudgedLine, verdict: Verdict, closed: ClosedLetters) -> Evidence:

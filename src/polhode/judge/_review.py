@@ -14,7 +14,7 @@ from polhode.judge._check import OpenVerdict
 from polhode.judge._marks import ALTOGETHER, LONGEST, corrected, marked
 from polhode.judge._reviewed import Review, ReviewedLine
 from polhode.judge._verdict import Answer, Verdict
-from polhode.judge.latex._tree import Node
+from polhode.judge.latex._tree import At, Node
 from polhode.judge.lines._body_axes import with_doubt_about_axes
 from polhode.judge.lines._conventions import in_conventions
 from polhode.judge.lines._end_of_contact import as_end_of_contact
@@ -30,7 +30,7 @@ from polhode.judge.lines._own_letters import (
     with_meaning_of_words,
     with_named,
 )
-from polhode.judge.lines._part_choices import choices_of, under_choice
+from polhode.judge.lines._part_choices import choices_of, in_one_sense, under_choice
 from polhode.judge.lines._positions import as_coordinate_of_a_point
 from polhode.judge.lines._slashes import in_one_way
 from polhode.judge.lines._stability import as_threshold
@@ -169,6 +169,8 @@ def _in_conventions(
     with suppress(NumericError), interrupted(LONGEST, advice="review a part of the text"):
         for place, line in in_conventions(lines, equations).items():
             found[places[place]] = line
+        for place, line in in_one_sense(lines, equations).items():
+            found[places[place]] = line
     return found
 
 
@@ -227,7 +229,8 @@ def _with_letters_of(
     """
     for place, entry in enumerate(entries):
         if isinstance(entry, JudgedLine) and not entry.verdict.holds:
-            stated = _stated_behind(entry.line, entries[place + 1 :])
+            lacks_letter = entry.verdict.answer is Answer.UNREAD
+            stated = _stated_behind(entry.line, entries[place + 1 :], lacks_letter)
             if stated != entry.line.in_force:
                 with suppress(NumericError), interrupted(LONGEST, advice="judge it by itself"):
                     found = judged_line(replace(entry.line, in_force=stated), equations, {})
@@ -256,10 +259,13 @@ def _not_claimed_again(judged: JudgedLine, statements: Statements) -> JudgedLine
 def _with_letters(
     judged: JudgedLine, lines: Sequence[TextLine], stated: Statements, equations: Equations
 ) -> JudgedLine:
-    """A line that is unread or open for want of a letter, judged with that of a part before it."""
+    """A line that is unread or open for want of a letter, judged with that of a part before it.
+
+    So is one that fails with the usual meaning of such a letter, if it is right with that.
+    """
     used = {letter for line in lines for letter in line.letters}
     here = lines[0].in_force
-    if judged.verdict.answer is Answer.UNREAD:
+    if judged.verdict.answer in (Answer.UNREAD, Answer.FAILS):
         letters = {n: m for n, m in stated.letters.items() if n in used - here.defined.keys()}
         numbers = {n: of for n, of in stated.measured.items() if n in letters}
         known = here.defining(letters).measuring(numbers)
@@ -272,7 +278,12 @@ def _with_letters(
         return judged
     if known is here:
         return judged
+    if judged.verdict.answer is Answer.FAILS and not letters:
+        return judged
     found = in_one_way([replace(line, in_force=known) for line in lines], equations)
+    if judged.verdict.answer is Answer.FAILS:
+        is_right = found.verdict.holds or found.verdict.answer is Answer.DEFINITION
+        return found if is_right else judged
     return judged if found.verdict.answer in (Answer.UNREAD, Answer.AMBIGUOUS) else found
 
 
@@ -298,8 +309,13 @@ def _of_letter_before(
     return replace(found, judgement=replace(found.judgement, corrected=lambda: right))
 
 
-def _stated_behind(line: TextLine, behind: Iterable[JudgedLine | SourceRelation]) -> InForce:
-    """What stands for a line with those of its letters that its paragraph defines behind it."""
+def _stated_behind(
+    line: TextLine, behind: Iterable[JudgedLine | SourceRelation], lacks_letter: bool
+) -> InForce:
+    """What stands for a line with those of its letters that its paragraph defines behind it.
+
+    Behind "where"; or without that word, for a line that lacks a letter.
+    """
     stated = line.in_force
     for other in behind:
         if isinstance(other, JudgedLine):
@@ -307,7 +323,8 @@ def _stated_behind(line: TextLine, behind: Iterable[JudgedLine | SourceRelation]
                 break
             said = other.line.cues
             is_where = said.role is Role.DEFINITION and not said.introduces
-            if is_where and not other.defines.keys().isdisjoint(line.letters):
+            new = {n.of if isinstance(n, At) else n for n in other.defines}
+            if (is_where or lacks_letter) and not new.isdisjoint(line.letters):
                 stated = stated.defining(other.defines)
     return stated
 

@@ -290,7 +290,7 @@ def _start(
     own = (*equations.coordinates, *equations.speeds)
     state = dict(run.segments[0].state(0.0))
     others = [s.published for s in own if s.published not in state]
-    state |= {name: values[0] for name, values in run.table(others, [0.0]).items()}
+    state |= {name: float(value) for name, value in run.table(others, 0.0).items()}
     # dense output is a series, whose rounding leaves about 1e-16 where a start is zero
     state |= {number.name: 0.0 for number in shown.start if not number.value}
     found: list[Control] = []

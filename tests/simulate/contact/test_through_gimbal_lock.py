@@ -118,7 +118,7 @@ def box(down):
     return ph.System(*corners, ph.Gravity(G), impacts="Moreau", sharing="equal stiffness")
 
 
-@pytest.mark.parametrize(("heading", "tilt"), [(-1.1, 0.0), (0.3, 1e-7), (0.3, 0.02)])
+@pytest.mark.parametrize(("heading", "tilt"), [(0.3, 1e-7), (0.3, 0.02)])
 def test_a_box_comes_to_rest_on_the_face_of_gimbal_lock(heading, tilt):
     """With the axis x down it lands in gimbal lock; with its axes named otherwise it does not."""
     # from the axes of the box that lands on the face across x to those of the other one: z is x

@@ -445,9 +445,9 @@ class Letters:
             return self._force_of(of)
         if what == "tension":
             return self._tension(of)
-        published = phrase.removeprefix("declared ").partition(",")[0]
+        published, _, sense = phrase.removeprefix("declared ").partition(", ")
         if published != phrase and (found := self._published(published)) is not None:
-            return found
+            return -found if sense == "opposite in sign" else found
         raise UnreadError
 
     def _of_body(self, what: str, name: str) -> Jets:

@@ -10,14 +10,8 @@ from math import lcm
 from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, Vector
 from polhode.base import NumericError
 from polhode.judge.latex._tree import Node
-from polhode.judge.meaning._meaning import Side, with_signs
-from polhode.judge.meaning._relations import (
-    PrintedRelation,
-    ScalarRelation,
-    Term,
-    complex_parts,
-    triad_of,
-)
+from polhode.judge.meaning._meaning import Side, complex_parts, with_signs
+from polhode.judge.meaning._relations import PrintedRelation, ScalarRelation, Term, triad_of
 from polhode.judge.states._bound_claim import EQUALITY, BoundClaim, Small
 from polhode.judge.states._claim_domain import ClaimDomain
 

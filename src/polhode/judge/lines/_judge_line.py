@@ -35,6 +35,7 @@ from polhode.judge.lines._weaker_meanings import is_at_end_of_contact, weaker_me
 from polhode.judge.meaning._evaluate import FROM_BODY
 from polhode.judge.meaning._meaning import Meaning
 from polhode.judge.meaning._relations import BoundRelation
+from polhode.judge.meaning._vocabulary import Vocabulary
 from polhode.judge.text._cues import Role
 from polhode.judge.text._in_force import Chosen, is_number, varies
 from polhode.judge.text._text_line import TIME_LETTER, TextLine
@@ -42,6 +43,8 @@ from polhode.model import DryFriction
 
 #: Words right before a letter that stands for a period or a frequency of small oscillations.
 _CALLED = re.compile(r"\b(period|frequency)(?: of (?:the )?small oscillations)?(?: is)?\W*\Z", re.I)
+_MOMENTS = ("I", "J")  # letters of moments of inertia, whatever their label
+_MOMENT_OF_INERTIA = "moment of inertia"
 #: On the earth, m/s², as texts round it.
 _GRAVITY = (Fraction("9.81"), Fraction("9.8"), Fraction(10))
 
@@ -67,7 +70,7 @@ def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedL
         return right or JudgedLine(line, found, is_open_value=True)
     if (wrong := _fails_in_limit(line, found, equations, chosen)) is not None:
         return wrong
-    why = _unread(line, found, equations)
+    why = _unread(line, found, equations) or _undecided(line, equations, chosen)
     if found.verdict.answer is Answer.FAILS and why:
         return JudgedLine(
             line, OpenVerdict(replace(found.verdict, answer=Answer.UNREAD, reason=why))
@@ -122,7 +125,7 @@ def _in_weaker_meaning(
             return other if is_meant else replace(other, needs="equilibrium")
         if context == "launch" and other.verdict.answer is Answer.AMBIGUOUS:
             open_readings = other
-        if sign := sign_needed(other.verdict):
+        if sign := sign_needed(other.verdict, equations):
             return replace(other, needs=sign)
         if other.verdict.answer is Answer.FAILS and may_refute:
             return other
@@ -234,27 +237,39 @@ def _meant_by_words(line: TextLine, verdict: Verdict) -> dict[Node, str]:
 def _as_called(
     line: TextLine, found: OpenVerdict, equations: Equations, chosen: Chosen
 ) -> JudgedLine | None:
-    """A line that defines what words call the period or frequency, as a claim about that.
+    """A line that defines what words call the period, frequency or moment of inertia, as a claim.
 
     None where the system has none, or where it could not be compared.
     """
     letter = line.statement.relations[0].sides[0]
-    called = _CALLED.search(line.cues.words_before)
-    if called is None or letter in chosen or not isinstance(letter, Name):
+    if letter in chosen or not isinstance(letter, Name):
         return None
     # of a chain, ω = a = b, the rest may hold
     if not (may_define(found.verdict, letter) or found.verdict.answer is Answer.DEFINITION):
         return None
-    kind = f"{called[1].lower()} of small oscillations"
-    vocabulary = line.in_force.notation(equations, {}).vocabulary
-    # one for each steady motion
-    phrases = [p for r in vocabulary.readings_of(letter) for p in r.phrases if p.startswith(kind)]
-    others = [
-        judged_line(line, equations, {**chosen, letter: phrase}) for phrase in phrases or [kind]
-    ]
+    called = _meanings_by_words(line, letter, line.in_force.notation(equations, {}).vocabulary)
+    others = [judged_line(line, equations, {**chosen, letter: phrase}) for phrase in called]
     if right := next((other for other in others if other.verdict.holds or other.needs), None):
         return right
     return next((other for other in others if other.verdict.answer is Answer.FAILS), None)
+
+
+def _meanings_by_words(line: TextLine, letter: Name, vocabulary: Vocabulary) -> list[str]:
+    """What words call a letter: "the period is", "the moment of inertia about the hinge is"."""
+    called = _CALLED.search(line.cues.words_before)
+    if called is not None:
+        kind = f"{called[1].lower()} of small oscillations"
+        # one for each steady motion
+        known = (p for r in vocabulary.readings_of(letter) for p in r.phrases)
+        return [p for p in known if p.startswith(kind)] or [kind]
+    if letter.letter not in _MOMENTS or not letter.subscript:
+        return []
+    if _MOMENT_OF_INERTIA not in line.cues.two_sentences.lower():
+        return []
+    known = (p for r in vocabulary.readings_of(Name(_MOMENTS[0])) for p in r.phrases)
+    moments = [p for p in known if p.startswith(_MOMENT_OF_INERTIA)]
+    said = [p for p in moments if any(re.search(pattern, p) for pattern in line.cues.meant)]
+    return said if len(said) == 1 else []
 
 
 def _only_read(verdict: Verdict) -> dict[Node, str]:
@@ -336,6 +351,16 @@ def _unread(line: TextLine, found: OpenVerdict, equations: Equations) -> str:
                 if name in line.letters and not (is_known or is_given_here):
                     return f"{latex} is a letter of the text's own, which no equation defines"
     return ""
+
+
+def _undecided(line: TextLine, equations: Equations, chosen: Chosen) -> str:
+    """That a line about steady motion was not decided there; in others it may well be wrong."""
+    if not line.says_that_it_is_steady:
+        return ""
+    steady = (meant for meant, context in weaker_meanings(line, equations) if context == "steady")
+    verdicts = (in_context(meant, equations, chosen, "steady").verdict for meant in steady)
+    is_open = any(v.answer is Answer.UNREAD and not v.holds_where for v in verdicts)
+    return "it is about steady motion, for which it was not decided" if is_open else ""
 
 
 def _kept(equations: Equations) -> list[Node]:

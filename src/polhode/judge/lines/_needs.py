@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import product
 
-from polhode.algebra import ZERO, Expr, SymbolKind
+from polhode.algebra import ZERO, Expr, SquareRoot, SymbolKind
 from polhode.base import PURE, TIME
 from polhode.derive import Equations
 from polhode.judge._check import OpenVerdict
@@ -35,7 +35,7 @@ def unstated_condition(
     line: TextLine, found: OpenVerdict, equations: Equations, chosen: Chosen
 ) -> str:
     """A simple condition under which a line holds that the text has not stated."""
-    if said := sign_needed(found.verdict):
+    if said := sign_needed(found.verdict, equations):
         return said
     if found.verdict.answer is not Answer.FAILS:
         return ""
@@ -149,11 +149,11 @@ def as_approximate(line: TextLine) -> str:
     return line.latex.replace("=", r"\approx ")
 
 
-def sign_needed(verdict: Verdict) -> str:
+def sign_needed(verdict: Verdict, equations: Equations) -> str:
     """The signs of the motion or of roots for which a line holds, of which a text may be silent."""
     if verdict.answer is Answer.UNREAD and verdict.option == "positive":
         return _in_latex(filter(_are_signs, verdict.holds_where))
-    if verdict.answer is Answer.FAILS and _is_direction(verdict.holds_where):
+    if verdict.answer is Answer.FAILS and _is_direction(verdict.holds_where, equations):
         return _in_latex(verdict.holds_where[:1])
     return ""
 
@@ -163,15 +163,24 @@ def _are_signs(conditions: SimpleCondition) -> bool:
     return all(each.sign != "=" for each in conditions)
 
 
-def _is_direction(where: Sequence[SimpleCondition]) -> bool:
+def _is_direction(where: Sequence[SimpleCondition], equations: Equations) -> bool:
     """Whether the first alternative is the sign of a single quantity, or of a sine or cosine.
 
-    Parameters may have to be of some size besides: R - a > 0.
+    Or it is the direction of a slip, as v - Rω > 0. Parameters may have to be of some size besides:
+    R - a > 0.
     """
     moving = [each for each in (where[0] if where else ()) if each.left.varies]
     if len(moving) != 1 or not _are_signs(where[0]):
         return False
-    return moving[0].left in map(Expr.generator, moving[0].left.generators)
+    left = moving[0].left
+    return left in map(Expr.generator, left.generators) or _is_side(left, equations)
+
+
+def _is_side(expression: Expr, equations: Equations) -> bool:
+    """Whether the equations contain the absolute value of an expression."""
+    roots = (g for e in equations.motion for g in e.generators if isinstance(g, SquareRoot))
+    insides = (root.plain for root in roots if root.plain is not None)
+    return any(not (expression / inside).varies for inside in insides)
 
 
 def _in_latex(where: Iterable[SimpleCondition]) -> str:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from polhode.derive import Equations
 from polhode.judge._check import OpenVerdict
-from polhode.judge._verdict import Answer
+from polhode.judge._verdict import Answer, Read
 from polhode.judge.document._part_readings import (
     Choice,
     choices_by_part,
@@ -15,6 +16,7 @@ from polhode.judge.document._part_readings import (
     proposed,
     under_part_reading,
 )
+from polhode.judge.latex import write_latex
 from polhode.judge.lines._judge_line import judged_line
 from polhode.judge.lines._judged_line import JudgedLine
 from polhode.judge.text._in_force import Section
@@ -31,6 +33,37 @@ def choices_of(lines: Iterable[JudgedLine]) -> dict[Section, Choice]:
         for choice in choices_by_part(readings).values():
             found[section] = choice
     return found
+
+
+def in_one_sense(lines: Sequence[JudgedLine], equations: Equations) -> dict[int, JudgedLine]:
+    """Lines that hold only with a force counted the other way than most lines of the part have it.
+
+    By their places, as they fail with the sense of the others.
+    """
+    senses: dict[str, Counter[str]] = {}
+    for read in (read for line in lines if line.verdict.holds for read in _with_sense(line)):
+        senses.setdefault(read.letter, Counter())[read.meaning] += 1
+    usual = {
+        letter: most[0][0]
+        for letter, counted in senses.items()
+        if len(most := counted.most_common()) > 1 and most[0][1] > most[1][1]
+    }
+    found: dict[int, JudgedLine] = {}
+    for place, line in enumerate(lines):
+        other = [r for r in _with_sense(line) if usual.get(r.letter, r.meaning) != r.meaning]
+        if line.verdict.holds and other and not line.stated:
+            named = {write_latex(n): n for n in line.line.letters}
+            chosen = {named[r.letter]: usual[r.letter] for r in other if r.letter in named}
+            again = judged_line(line.line, equations, chosen)
+            if again.verdict.answer is Answer.FAILS:
+                said = " and ".join(r.letter for r in other)
+                found[place] = replace(again, otherwise=f"{said} counted in the other sense")
+    return found
+
+
+def _with_sense(judged: JudgedLine) -> list[Read]:
+    """The letters of a line for forces that may point either way."""
+    return [r for r in judged.verdict.readings if r.meaning.startswith("declared ")]
 
 
 def under_choice(judged: JudgedLine, choice: Choice, equations: Equations) -> JudgedLine:

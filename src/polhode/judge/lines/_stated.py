@@ -246,7 +246,9 @@ def _not_claimed(
         return _restricted(judged, own, values)
     if judged.is_open_value and not has_wrong_unit:
         return replace(judged, stated=_OPEN_VALUE), own
-    is_chosen = is_assumed or _ON_SEPARATRIX.search(cues.words_before) is not None
+    sides = (side for relation in bound.relations for side in (relation.left, relation.right))
+    is_let = cues.introduces and not any(map(varies, sides))  # "Let RΩ² = 2g"
+    is_chosen = is_assumed or is_let or _ON_SEPARATRIX.search(cues.words_before) is not None
     is_chosen = is_chosen or (cues.is_at_rest and vanishes_at_rest(judged, equations))
     if is_chosen and _stays_true(judged, bound, equations):
         said = "an assumption: it chooses among the motions by a conserved quantity"

@@ -44,14 +44,19 @@ from polhode.judge.meaning._poisson_bracket import (
     SIGNS,
     poisson_bracket,
 )
-from polhode.judge.meaning._vocabulary import LAGRANGIAN, Vocabulary, constant
+from polhode.judge.meaning._vocabulary import (
+    LAGRANGIAN,
+    POTENTIALS,
+    Vocabulary,
+    constant,
+    is_of_place,
+)
 from polhode.model import Frame
 
 TIME = tree.Name("t")
 #: Functions of coordinates and momenta, whatever they are written with.
 HAMILTONIANS = (tree.Name("H"), tree.Name("cal H"))
 ROUTHIANS = (tree.Name("R"), tree.Name("cal R"))
-_POTENTIALS = ("U", "V")  # functions of a coordinate; x(0) is a value at a time instead
 #: Labels of (dL/dt)_s and (dL/dt)_r: rates seen from space, and from axes that turn with the body.
 _SPACE = {"s", "S", "space", "fixed", "inertial", "in", "lab", "fix", "o", "I"}
 _BODY = {
@@ -468,10 +473,18 @@ class Evaluator:
                 advice=f"write the integral, or put the bracket first if {letter} is a factor",
             )
         of = node.of
-        if isinstance(of, tree.Name) and of.primes and of.letter in _POTENTIALS:
-            found = None if self.vocabulary.has(of) else self._slope(of, node.argument)
+        if (
+            isinstance(of, tree.Name)
+            and of.letter in POTENTIALS
+            and (of.primes or is_of_place(node))
+        ):
+            # U'(θ) is a derivative, though U' by itself may be an effective potential
+            is_letter = of in self.vocabulary.stated or of in self.vocabulary.chosen
+            found = None if is_letter else self._slope(of, node.argument)
             if found is not None:
                 return found
+        if is_of_place(node):
+            return self.vocabulary.meaning(node)
         # Of a rate it is the rate, as θ̇(t) is θ̇.
         is_rate = isinstance(of, tree.Dots) and node.argument == TIME
         if is_rate and node not in self.vocabulary.stated:
@@ -490,7 +503,13 @@ class Evaluator:
     def _slope(self, of: tree.Name, argument: tree.Node) -> Expr | None:
         """V″(θ₀): the derivative by the only coordinate on which a potential depends."""
         bare = replace(of, primes=0)
-        whole = self.value(bare) if self.vocabulary.has(bare) else None
+        stated = (n for n in self.vocabulary.stated if isinstance(n, tree.At) and n.of == bare)
+        if (function := next(stated, None)) is not None:
+            whole = self.vocabulary.meaning(function)
+        elif self.vocabulary.has(bare) and not is_of_place(tree.At(bare, argument)):
+            whole = self.value(bare)
+        else:
+            return None
         if not isinstance(whole, Expr):
             return None
         varying = [s for s in whole.symbols() if s.kind.varies]
@@ -514,7 +533,7 @@ class Evaluator:
         is_of_place = (
             len(varying) == 1 and varying[0] in self.vocabulary.mechanics.declared.coordinates
         )
-        if of.letter in _POTENTIALS and len(values) == 1 and is_of_place:
+        if of.letter in POTENTIALS and len(values) == 1 and is_of_place:
             return whole.subs({varying[0]: values[0]})
         return None
 
@@ -523,6 +542,9 @@ class Evaluator:
         inside = self.value(node.of)
         if isinstance(inside, Vector):
             return self._root(inside.dot(inside))
+        if isinstance(inside, Expr) and meanings.IMAGINARY in inside.symbols():
+            real, imaginary = meanings.complex_parts(inside)
+            return self._root(real * real + imaginary * imaginary)
         return meanings.positive_size(as_scalar(inside, "a magnitude"), self.vocabulary.positive)
 
     @_value.register

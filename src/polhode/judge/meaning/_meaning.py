@@ -11,6 +11,7 @@ from typing import TypeAlias
 
 from polhode.algebra import (
     ONE,
+    ZERO,
     Expr,
     Generator,
     Matrix,
@@ -216,6 +217,23 @@ def positive_root(radicand: Expr, positive: Collection[Expr]) -> Expr:
         raise BindingError(
             error.given, expected=error.expected, advice=error.advice, option=error.option
         ) from None
+
+
+def complex_parts(side: Expr) -> tuple[Expr, Expr]:
+    """The real and the imaginary part of a polynomial in the imaginary unit."""
+    inside = (g for g in side.generators if g != IMAGINARY)
+    if IMAGINARY in side.denominator.symbols() or any(IMAGINARY in g.symbols() for g in inside):
+        raise ParseError(
+            "the imaginary unit below a fraction line or inside of a function",
+            expected="sums and products of real quantities with it",
+        )
+    parts, unit = [ZERO, ZERO], Expr.generator(IMAGINARY)
+    rest, power = side, 0
+    while rest:
+        coefficient = rest.subs({IMAGINARY: ZERO})
+        parts[power % 2] += -coefficient if power % 4 > 1 else coefficient
+        rest, power = (rest - coefficient) / unit, power + 1
+    return parts[0], parts[1]
 
 
 def positive_size(x: Expr, positive: Collection[Expr]) -> Expr:

@@ -95,18 +95,18 @@ _NORMAL = ("N", "R")
 _RADIUS = Name("r")
 _FORCE = Name("F")  # of all forces that are given no letter, and of all together
 _OSCILLATING = {
-    Name("omega", "0"): "frequency",
-    Name("omega", "n"): "frequency",
-    Name("omega"): "frequency",
-    Name("Omega"): "frequency",
-    Name("T"): "period",
-    Name("T", "0"): "period",
-    Name("tau"): "period",
-    Name("P"): "period",
-    Name("f"): "number per second",
-    Name("nu"): "number per second",
+    Name("omega", "0"): ("frequency",),
+    Name("omega", "n"): ("frequency",),
+    Name("omega"): ("frequency",),
+    Name("Omega"): ("frequency",),
+    Name("T"): ("period",),
+    Name("T", "0"): ("period",),
+    Name("tau"): ("period",),
+    Name("P"): ("period",),
+    Name("f"): ("number per second",),
+    Name("nu"): ("number per second", "frequency"),
 }
-_SPINNING = (Name("omega"), Name("Omega"))
+_SPINNING = (Name("omega"), Name("Omega"), Name("nu"))
 #: Letters for the frequencies of normal modes; which of them is which is the choice of the text.
 NORMAL_MODES = {Name(n, label) for n in ("omega", "Omega") for label in ("1", "2", "3", "+", "-")}
 #: Letters that texts define for themselves as often as not: a formula that fails for the quantity
@@ -634,12 +634,12 @@ def _turns(mechanics: Mechanics, body: Body) -> bool:
 def _of_oscillations(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
     """Phrases for a letter that is a frequency, a period or the like about each steady motion.
 
-    Only ω and Ω are frequencies that a spin decides: ω₀ is as a rule the spin itself.
+    Only ω, Ω and ν are frequencies that a spin decides: ω₀ is as a rule the spin itself.
     """
     known = frequencies(mechanics)
     return tuple(
-        f"{_OSCILLATING[letter]} of small oscillations"
-        + (f" about {family}" if len(known) > 1 else "")
+        f"{kind} of small oscillations" + (f" about {family}" if len(known) > 1 else "")
+        for kind in _OSCILLATING[letter]
         for family, value in known.items()
         if letter in _SPINNING or not has_speed(mechanics, value)
     )

@@ -14,7 +14,15 @@ from polhode.base import ParseError
 from polhode.judge.latex import _tree as tree
 from polhode.judge.latex._tree import Node, Span
 from polhode.judge.meaning._evaluate import TIME, Evaluator
-from polhode.judge.meaning._meaning import IMAGINARY, BindingError, Meaning, Side, Tensor, sort
+from polhode.judge.meaning._meaning import (
+    IMAGINARY,
+    BindingError,
+    Meaning,
+    Side,
+    Tensor,
+    complex_parts,
+    sort,
+)
 from polhode.model import Frame
 
 _STRETCH = Symbol("stretch")
@@ -91,23 +99,6 @@ def components(member: int, left: Side, right: Side) -> tuple[ScalarRelation, ..
         expected="two scalars or two vectors",
         advice="look for a lost hat, arrow or dot product",
     )
-
-
-def complex_parts(side: Expr) -> tuple[Expr, Expr]:
-    """The real and the imaginary part of a polynomial in the imaginary unit."""
-    inside = (g for g in side.generators if g != IMAGINARY)
-    if IMAGINARY in side.denominator.symbols() or any(IMAGINARY in g.symbols() for g in inside):
-        raise ParseError(
-            "the imaginary unit below a fraction line or inside of a function",
-            expected="sums and products of real quantities with it",
-        )
-    parts, unit = [ZERO, ZERO], Expr.generator(IMAGINARY)
-    rest, power = side, 0
-    while rest:
-        coefficient = rest.subs({IMAGINARY: ZERO})
-        parts[power % 2] += -coefficient if power % 4 > 1 else coefficient
-        rest, power = (rest - coefficient) / unit, power + 1
-    return parts[0], parts[1]
 
 
 def triad_of(left: Side, right: Side) -> Triad | None:

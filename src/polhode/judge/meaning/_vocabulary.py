@@ -472,14 +472,33 @@ class Vocabulary:
 
 
 def _names(piece: Piece) -> Iterator[Name]:
-    """The letters of a piece of text; the L of ∂L/∂q̇ is a Lagrangian whatever L means elsewhere."""
+    """The letters of a piece of text; the L of ∂L/∂q̇ is a Lagrangian whatever L means elsewhere.
+
+    In U'(θ) the letter is U, and the W of W(θ) has no meaning by usage.
+    """
     pieces = list(walk(piece))
     lagrangians = {id(letter) for letter in _lagrangians(pieces)}
+    functions = {id(p.of): is_of_place(p) for p in pieces if isinstance(p, At)}
     for found in pieces:
         if isinstance(found, Name) and id(found) not in lagrangians:
-            yield found
+            if id(found) not in functions:
+                yield found
+            elif not functions[id(found)]:
+                yield replace(found, primes=0) if found.letter in POTENTIALS else found
         if isinstance(found, Component):
             yield Name(found.subscript, decoration=_HAT)
+
+
+#: Functions of a coordinate, whose primes are derivatives; x(0) is a value at a time instead.
+POTENTIALS = ("U", "V", "W")
+_WORK = "W"
+
+
+def is_of_place(node: At) -> bool:
+    """Whether it is W(θ), a function of place, which the work done on the way is not."""
+    of, argument = node.of, node.argument
+    is_place = isinstance(argument, Name) and argument != Name("t")
+    return is_place and isinstance(of, Name) and of.letter == _WORK and not of.subscript
 
 
 def _lagrangians(pieces: Iterable[object]) -> list[Node]:

@@ -5,8 +5,10 @@ from __future__ import annotations
 import re
 
 _FROM_REST = r"\bfrom\s+(?:\(?(?:almost|nearly)\)?\s+)?rest\b"
+_AT_REST_AT = r"(?<!\bat )(?<!\bfrom )\brest at\b"  # "(rest at θ = 0)"
 AT_REST = re.compile(
     rf"{_FROM_REST.replace('from', '(?:at|from)')}"
+    rf"|{_AT_REST_AT}"
     r"|\b(?:held|kept)\b[^.;]{0,60}\b(?:and|then) (?:is )?(?:released|let go)\b",
     re.I,
 )
@@ -18,7 +20,8 @@ AT_START = re.compile(
     re.I,
 )
 LAUNCH = re.compile(
-    rf"\breleased?\b|{_FROM_REST}|\binitially\b|\blet (?:go|fall)\b|\bdropped\b|\bprojected\b"
+    rf"\breleased?\b|{_FROM_REST}|{_AT_REST_AT}|\binitially\b"
+    r"|\blet (?:go|fall)\b|\bdropped\b|\bprojected\b"
     r"|\b(?:starts?|starting|begins?|beginning) (?:(?:to \w+|\w+ing|out|off) )?(?:at|with)\b"
     r"|\bset (?:going|spinning|moving|in motion)\b|\b(?:thrown|launched|struck|kicked)\b"
     r"|\binitial (?:conditions?|values?|state)\b",
