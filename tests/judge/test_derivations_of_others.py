@@ -185,3 +185,13 @@ def test_parameters_in_a_ratio_are_let():
         ph.Gravity(g),
     )
     assert marks("Let $kl = 2mg$.", ph.derive(system)) == [Mark.NOT_JUDGED]
+
+
+def test_a_letter_that_no_line_confirms_makes_no_doubt(spherical_rod):
+    """Ω may be the magnitude of the angular velocity, or whatever the text has in mind."""
+    line = r"$$2\Omega^2 l\cos\theta = 3g + l\Omega^2.$$"
+    assert marks(line, spherical_rod) == [Mark.NOT_JUDGED]
+    known = r"In steady precession $\dot\phi = \Omega$ and $\theta = \text{const}$. Then "
+    assert marks(known + line, spherical_rod)[-1] in (Mark.DOUBT, Mark.ERROR)
+    right = r"$$\Omega^2\cos\theta = \frac{3g}{2l}.$$"
+    assert marks(known + right, spherical_rod)[-1] == Mark.TRUE

@@ -8,7 +8,7 @@ dimensions. Everything else that fails is a doubt.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
 from polhode.judge._verdict import Answer, Verdict
@@ -88,19 +88,28 @@ class ClosedLetters:
         if judged.verdict.holds and not (judged.stated or judged.needs):
             self._confirmed.update(_read_by_usage(judged))
 
-    def left_open(self, judged: JudgedLine) -> tuple[str, ...]:
+    def left_open(
+        self, judged: JudgedLine, among: Collection[str] | None = None
+    ) -> tuple[str, ...]:
         """The letters of a line that were read by common usage alone, each with its reading.
 
         Those of the declaration, those that the text defines, and those that the sentence calls by
         the name of their quantity are closed.
+
+        Args:
+            judged: the line.
+            among: letters that are looked at; by default all, and declared forces besides that are
+                of another dimension than the terms beside them.
         """
         left = (
             f"{spelled(letter)} as {phrase}"
             for letter, phrase in _read_by_usage(judged)
             if (letter, phrase) not in self._confirmed
             and not _is_named(letter, phrase, judged.line)
+            and (among is None or (isinstance(letter, Name) and letter.letter in among))
         )
-        return tuple(dict.fromkeys([*left, *_forces_at_odds(judged)]))
+        forces = _forces_at_odds(judged) if among is None else ()
+        return tuple(dict.fromkeys([*left, *forces]))
 
 
 def _read_by_usage(judged: JudgedLine) -> Iterator[tuple[Node, str]]:

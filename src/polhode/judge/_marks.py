@@ -18,6 +18,7 @@ from polhode.judge.consequences._open_letters import OpenLetters
 from polhode.judge.latex._tree import Node
 from polhode.judge.lines._hypotheses import is_condition
 from polhode.judge.lines._judged_line import JudgedLine
+from polhode.judge.meaning._proposals import FREE
 from polhode.judge.processes._limited_check import uncorrected
 from polhode.judge.source import SourceRelation
 
@@ -156,6 +157,11 @@ class _Marker:
             return said
         if is_condition(judged):
             return _Said(Mark.NOT_JUDGED, _CONDITION)
+        left = self._closed.left_open(judged, FREE)
+        if left and not found.slip:  # the text may mean something of its own
+            read = ", ".join(left)
+            reason = f"it does not hold with {read}, which no line of the text confirms"
+            return _Said(Mark.NOT_JUDGED, reason)
         return replace(said, mark=Mark.DOUBT, reason=f"{said.reason}; {found.lacking}")
 
     def _drawn_from_no_error(self, judged: JudgedLine, said: _Said) -> _Said:

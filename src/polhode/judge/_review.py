@@ -314,7 +314,7 @@ def _stated_behind(
 ) -> InForce:
     """What stands for a line with those of its letters that its paragraph defines behind it.
 
-    Behind "where"; or without that word, for a line that lacks a letter.
+    Behind "where"; or without that word, a function for a line that lacks one: E = T + W(θ).
     """
     stated = line.in_force
     for other in behind:
@@ -323,8 +323,9 @@ def _stated_behind(
                 break
             said = other.line.cues
             is_where = said.role is Role.DEFINITION and not said.introduces
-            new = {n.of if isinstance(n, At) else n for n in other.defines}
-            if (is_where or lacks_letter) and not new.isdisjoint(line.letters):
+            functions = {n.of for n in other.defines if isinstance(n, At)}
+            new = {*functions, *other.defines} if is_where else functions if lacks_letter else set()
+            if not new.isdisjoint(line.letters):
                 stated = stated.defining(other.defines)
     return stated
 

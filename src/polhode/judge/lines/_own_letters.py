@@ -49,6 +49,7 @@ _OF_A_TURN = re.compile(
     re.I,
 )
 _ANGULAR_VELOCITY = Name("omega")
+_CONSTANT = Name("constant")
 #: Words right before a letter that they give a meaning: "the moment of inertia about the end is".
 _IS = re.compile(r"\b(?:is|are|be)\s*:?\s*\Z", re.I)
 _OSCILLATIONS = " of small oscillations"
@@ -223,10 +224,13 @@ def letter_for_speed(judged: JudgedLine, equations: Equations) -> dict[Node, Mea
     notation = judged.judgement.notation or judged.line.in_force.notation(equations, {})
     if judged.line.cues.role is _HENCE or len(relations) != 1:
         return {}
-    if relations[0].signs not in (("=",), ("≈",)):
+    *sides, last = relations[0].sides
+    if len(sides) < 2 or last != _CONSTANT:  # "φ' = Ω = const"
+        sides.append(last)
+    if len(sides) != 2 or not {*relations[0].signs} <= {"=", "≈"}:
         return {}
-    for letter, other in permutations(relations[0].sides):
-        is_named = letter == _ANGULAR_VELOCITY and letter is relations[0].sides[1]
+    for letter, other in permutations(sides):
+        is_named = letter == _ANGULAR_VELOCITY and letter is sides[1]
         if not isinstance(letter, Name) or letter.subscript:
             continue
         if not (is_named or letter.letter[:1].isupper()):

@@ -111,7 +111,9 @@ _SPINNING = (Name("omega"), Name("Omega"), Name("nu"))
 NORMAL_MODES = {Name(n, label) for n in ("omega", "Omega") for label in ("1", "2", "3", "+", "-")}
 #: Letters that texts define for themselves as often as not: a formula that fails for the quantity
 #: proposed may be a definition, so that both answers are given.
-_FREE = {"alpha", "Omega", "omega", "K", "k", "P", "p", "r", "R", "G", "J", "Gamma", "W"}
+FREE = frozenset(
+    {"alpha", "Omega", "omega", "K", "k", "nu", "P", "p", "r", "R", "G", "J", "Gamma", "W"}
+)
 
 
 def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
@@ -214,7 +216,7 @@ def is_free(letter: Node, mechanics: Mechanics) -> bool:
         return False
     if letter.letter == "p" and letter.subscript:
         return False  # p_2 is the momentum of a coordinate or of a body
-    return letter.letter in _FREE and letter not in ALWAYS and letter not in _LABELLED_ENERGIES
+    return letter.letter in FREE and letter not in ALWAYS and letter not in _LABELLED_ENERGIES
 
 
 def _by_one_number(mechanics: Mechanics, letter: Node, phrases: tuple[str, ...]) -> tuple[str, ...]:
