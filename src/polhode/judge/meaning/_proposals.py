@@ -106,6 +106,7 @@ _OSCILLATING = {
     Name("f"): ("number per second",),
     Name("nu"): ("number per second", "frequency"),
 }
+_UPRIGHT = ("v", "V", "vert")  # labels of vertical components
 _SPINNING = (Name("omega"), Name("Omega"), Name("nu"))
 #: Letters for the frequencies of normal modes; which of them is which is the choice of the text.
 NORMAL_MODES = {Name(n, label) for n in ("omega", "Omega") for label in ("1", "2", "3", "+", "-")}
@@ -552,6 +553,8 @@ def _of_pivot(mechanics: Mechanics, pivot: Pivot, number: int) -> Iterator[Entry
         upright = f"vertical force of {pivot.name}"
         for letter in ("N", "R"):
             yield Name(letter), (upright, *_along_turning(mechanics, pivot))
+        for letter, label in product(("F", "N", "R"), _UPRIGHT):
+            yield Name(letter, label), (upright,)
     if holds_a_particle(pivot):
         for letter in ("T", "S"):
             yield Name(letter, GREATEST), (f"greatest tension of {pivot.name}",)
