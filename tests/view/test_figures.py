@@ -227,6 +227,39 @@ def test_the_axle_is_traced_on_the_sphere(run_of):
     assert not np.any(np.isnan(both))
 
 
+@pytest.mark.parametrize(
+    ("name", "shown"),
+    [
+        ("gyroscope", ["nutation", "effective_potential"]),
+        ("rolling-disk", ["nutation", "effective_potential", "floor_path"]),
+        ("tennis-racquet", ["polhodes"]),
+        ("marble-on-turntable", ["floor_path"]),
+        ("gyroscope/held", []),
+    ],
+)
+def test_a_motion_has_the_pictures_that_show_something(run_of, name, shown):
+    """A gyroscope that is held has nothing to show."""
+    assert [picture.draw.__name__ for picture in view.pictures_of(run_of(name))] == shown
+
+
+def test_pictures_stand_beneath_a_history(run_of):
+    run = run_of("gyroscope")
+    draw = [picture.draw for picture in view.pictures_of(run)]
+    figure = view.figure_of_run(run, [("theta",)], beneath=draw)
+    *pictures, history = figure.axes
+    assert len(pictures) == 2
+    assert history.get_ylabel() == r"$\theta$ (deg)"
+    assert history.get_window_extent().y0 > max(ax.get_window_extent().y1 for ax in pictures)
+
+
+def test_an_axis_that_does_not_go_round_is_seen_from_its_side(run_of):
+    """Three cusps of a gyroscope are in front of the sphere."""
+    run = run_of("gyroscope")
+    few = replace(run, t=np.linspace(0.0, 0.05 * run.duration, 200))
+    _, behind = view.nutation(few)
+    assert np.all(np.isnan(behind.get_ydata()))
+
+
 def test_a_body_without_a_spin_axis_needs_the_axis_named(run_of):
     run = run_of("tennis-racquet")
     with pytest.raises(DeclarationError, match="name the axis to follow"):

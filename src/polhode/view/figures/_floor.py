@@ -36,7 +36,7 @@ def floor_path(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     Raises:
         DeclarationError: for a system in which nothing touches a support.
     """
-    contact = _contact(run)
+    contact = touching(run)
     centre = _on_plane(run, contact.on, lambda equations: _centre(equations, contact))
     touched = _on_plane(run, contact.on, lambda equations: _touched(equations, contact))
     paths = {"centre of mass": centre, "contact": touched}
@@ -52,7 +52,7 @@ def support_trace(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     Raises:
         DeclarationError: for a system in which nothing touches a support.
     """
-    contact = _contact(run)
+    contact = touching(run)
     support = contact.on
     x, y = _on_plane(run, support, lambda equations: _touched(equations, contact) - support.origin)
     t = instants(run)
@@ -63,7 +63,18 @@ def support_trace(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     return _drawn(ax, {"trace on the support": trace}, support)
 
 
-def _contact(run: Trajectory) -> Contact:
+def centre_on_support(run: Trajectory) -> Array:
+    """Where the centre of mass is along the first two directions of a support, (2, instants), m."""
+    contact = touching(run)
+    return _on_plane(run, contact.on, lambda equations: _centre(equations, contact))
+
+
+def touching(run: Trajectory) -> Contact:
+    """The first contact of a system.
+
+    Raises:
+        DeclarationError: for a system in which nothing touches a support.
+    """
     for element in run.system.elements:
         if isinstance(element, Contact):
             return element

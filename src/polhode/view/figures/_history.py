@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
@@ -28,7 +28,7 @@ from polhode.view.figures._style import COLOURS, INK, SHADES, house_style, line_
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+    from matplotlib.figure import Figure, FigureBase
     from matplotlib.legend import Legend
     from matplotlib.patches import Polygon, Rectangle
 
@@ -46,6 +46,7 @@ _SLIGHT = 1e-3  # relative spread below which only the change is worth showing
 _PALE: dict[str, Any] = {"edgecolor": INK, "alpha": 0.28, "linewidth": 0, "zorder": 0}
 _HATCHES = ("", "////", "....", "xxxx")
 _PANEL, _FOOT, _LEAST = 1.35, 0.45, 2.3  # heights in inches: of a panel, below them, of a figure
+_PICTURE = 2.6  # height of pictures beneath, inches
 _ROOM = 1.1  # widths of the axes that a legend may take
 
 
@@ -189,26 +190,41 @@ def plot(run: Trajectory, *quantities: Named | Sequence[Named]) -> Figure:
 
 @house_style()
 def figure_of_run(
-    run: Trajectory, groups: Sequence[Sequence[str]], *, period: float | None = None
+    run: Trajectory,
+    groups: Sequence[Sequence[str]],
+    *,
+    period: float | None = None,
+    beneath: Sequence[Callable[..., Drawn]] = (),
 ) -> Figure:
     """Named quantities against time, one panel for each group; by default those of `plot`.
 
     A group is split where its quantities have different units or sizes that do not compare.
 
     Args:
+        run: the motion.
+        groups: names of quantities.
         period: T, s, where time is to be shown as t/T.
+        beneath: pictures of the motion, such as `nutation`, to be drawn below, side by side.
 
     Raises:
         DeclarationError: for a name the run does not have.
     """
     sizes = magnitudes_of(run)
     stacked = [panel for group in groups or everything(run) for panel in panels(run, group, sizes)]
-    figure = new_figure(max(_LEAST, _FOOT + _PANEL * len(stacked)))
-    column = figure.subplots(len(stacked), 1, sharex=True, squeeze=False)[:, 0]
+    height = max(_LEAST, _FOOT + _PANEL * len(stacked))
+    figure = new_figure(height + _PICTURE * bool(beneath))
+    above: FigureBase = figure
+    if beneath:
+        parts: Any = figure.subfigures(2, 1, height_ratios=(height, _PICTURE))
+        above, below = parts
+        row = below.subplots(1, len(beneath), squeeze=False)[0]
+        for draw, axes in zip(beneath, row, strict=True):
+            draw(run, ax=axes)
+    column = above.subplots(len(stacked), 1, sharex=True, squeeze=False)[:, 0]
     for axes, names in zip(column, stacked, strict=True):
         history(run, *names, ax=axes)
         if period is not None:
             _count_in(axes, period)
         axes.label_outer()
-    figure.align_ylabels(column)
+    above.align_ylabels(column)
     return figure

@@ -126,28 +126,29 @@ def nutation(run: Trajectory, *, axis: Vector | None = None, ax: Axes | None = N
     """
     axes = axes_or_new(ax, 3.8)
     root = equations_of(run).system.root
-    direction = (axis or _spin_axis(run)).express(root)
+    direction = (axis or spin_axis(run)).express(root)
     t = instants(run)
     points = np.array([run.evaluate(component, t) for component in direction.components])
+    sky = _before(points)
     for height in np.sin(np.radians([-60, -30, 0, 30, 60])):
-        _draw(axes, _parallel(height), color=FAINT, linewidth=0.6)
+        _draw(axes, sky, _parallel(height), color=FAINT, linewidth=0.6)
     for turn in np.radians(np.arange(0, 180, 30)):
         meridian = np.array(
             [np.cos(turn) * np.sin(_CIRCLE), np.sin(turn) * np.sin(_CIRCLE), np.cos(_CIRCLE)]
         )
-        _draw(axes, meridian, color=FAINT, linewidth=0.6)
+        _draw(axes, sky, meridian, color=FAINT, linewidth=0.6)
     axes.plot(np.cos(_CIRCLE), np.sin(_CIRCLE), color=MUTED, linewidth=0.8)
-    arrow(axes, _SKY, np.array([[0.0, 0.0], [0.0, 0.0], [1.0, 1.25]]), f"${root.labels[2]}$")
+    arrow(axes, sky, np.array([[0.0, 0.0], [0.0, 0.0], [1.0, 1.25]]), f"${root.labels[2]}$")
     for height in (float(np.min(points[2])), float(np.max(points[2]))):
-        _draw(axes, _parallel(height), color=MUTED, linewidth=0.8, linestyle=(0, (4, 3)))
-    trace = _draw(axes, points, color=COLOURS[0], linewidth=1.4)
-    start = _SKY.project(points[:, :1])
+        _draw(axes, sky, _parallel(height), color=MUTED, linewidth=0.8, linestyle=(0, (4, 3)))
+    trace = _draw(axes, sky, points, color=COLOURS[0], linewidth=1.4)
+    start = sky.project(points[:, :1])
     axes.plot(*start, "o", color=COLOURS[0], markersize=4.5, zorder=3)
     bare(axes)
     return Drawn(axes, trace)
 
 
-def _spin_axis(run: Trajectory) -> Vector:
+def spin_axis(run: Trajectory) -> Vector:
     for body in equations_of(run).system.bodies:
         if isinstance(body.spin, About | Relative):
             return body.axes[body.spin.axis]
@@ -163,8 +164,17 @@ def _parallel(height: float) -> Array:
     return np.array([radius * np.cos(_CIRCLE), radius * np.sin(_CIRCLE), 0 * _CIRCLE + height])
 
 
-def _draw(axes: Axes, points: Array, **style: object) -> tuple[Line2D, Line2D]:
-    return draw_on(axes, _SKY, points, points, **style)
+def _before(points: Array) -> View:
+    """The usual view, or from the side on which an axis stays that does not go round."""
+    turned = np.unwrap(np.arctan2(points[1], points[0]))
+    if not 0 < np.ptp(turned) < np.pi:
+        return _SKY
+    middle = (float(np.min(turned)) + float(np.max(turned))) / 2
+    return View(float(np.degrees(middle)), _SKY.elevation)
+
+
+def _draw(axes: Axes, sky: View, points: Array, **style: object) -> tuple[Line2D, Line2D]:
+    return draw_on(axes, sky, points, points, **style)
 
 
 # --- a free body: polhodes and the herpolhode ---
