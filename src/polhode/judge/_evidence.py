@@ -98,15 +98,15 @@ class ClosedLetters:
 
         Args:
             judged: the line.
-            among: letters that are looked at; by default all, and declared forces besides that are
-                of another dimension than the terms beside them.
+            among: scalar letters without a label that are looked at; by default all letters, and
+                declared forces of another dimension than the terms beside them.
         """
         left = (
             f"{spelled(letter)} as {phrase}"
             for letter, phrase in _read_by_usage(judged)
             if (letter, phrase) not in self._confirmed
             and not _is_named(letter, phrase, judged.line)
-            and (among is None or (isinstance(letter, Name) and letter.letter in among))
+            and (among is None or _is_bare(letter, among))
         )
         forces = _forces_at_odds(judged) if among is None else ()
         return tuple(dict.fromkeys([*left, *forces]))
@@ -124,6 +124,13 @@ def _read_by_usage(judged: JudgedLine) -> Iterator[tuple[Node, str]]:
             is_declared = reading.phrase.startswith(("axis ", "declared "))
             if not (is_declared and len(reading.phrases) == 1):
                 yield reading.letter, reading.phrase
+
+
+def _is_bare(letter: Node, among: Collection[str]) -> bool:
+    """Whether it is one of some letters by itself: Ω, but not the component ω₂ of **ω**."""
+    if not isinstance(letter, Name) or letter.subscript or letter.decoration:
+        return False
+    return letter.letter in among
 
 
 def _forces_at_odds(judged: JudgedLine) -> Iterator[str]:

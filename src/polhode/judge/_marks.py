@@ -86,6 +86,7 @@ class _Marker:
 
     def __init__(self, equations: Equations, seconds: float, offset: int) -> None:
         self._left = seconds  # for corrections
+        self._seeks_slips = seconds > 0
         self._offset = offset
         self._letters = OpenLetters()
         self._closed = ClosedLetters()
@@ -158,7 +159,7 @@ class _Marker:
         if is_condition(judged):
             return _Said(Mark.NOT_JUDGED, _CONDITION)
         left = self._closed.left_open(judged, FREE)
-        if left and not found.slip:  # the text may mean something of its own
+        if left and self._seeks_slips and not found.slip:  # the text may mean something else
             read = ", ".join(left)
             reason = f"it does not hold with {read}, which no line of the text confirms"
             return _Said(Mark.NOT_JUDGED, reason)

@@ -361,11 +361,13 @@ def every_reading(vocabulary: Vocabulary, pieces: Iterable[Piece]) -> tuple[Read
 def _differentiated(pieces: Iterable[Piece]) -> Iterator[Node]:
     """The letters of ∂T/∂q̇ and the like, which are functions of coordinates and rates.
 
-    The H in a Poisson bracket is one of coordinates and momenta.
+    So is the V of V'(θ). The H in a Poisson bracket is one of coordinates and momenta.
     """
     for piece in (p for each in pieces for p in walk(each)):
         if isinstance(piece, Derivative) and piece.partial and piece.by != TIME:
             yield piece.of.of if isinstance(piece.of, At) else piece.of
+        if isinstance(piece, At) and isinstance(piece.of, Name) and piece.of.primes:
+            yield replace(piece.of, primes=0)
         if isinstance(piece, PoissonBracket):
             yield from (n for n in (piece.left, piece.right) if n in HAMILTONIANS)
 

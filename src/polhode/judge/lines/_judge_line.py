@@ -70,7 +70,7 @@ def judged_line(line: TextLine, equations: Equations, chosen: Chosen) -> JudgedL
         return right or JudgedLine(line, found, is_open_value=True)
     if (wrong := _fails_in_limit(line, found, equations, chosen)) is not None:
         return wrong
-    why = _unread(line, found, equations) or _undecided(line, equations, chosen)
+    why = _unread(line, found, equations)
     if found.verdict.answer is Answer.FAILS and why:
         return JudgedLine(
             line, OpenVerdict(replace(found.verdict, answer=Answer.UNREAD, reason=why))
@@ -351,16 +351,6 @@ def _unread(line: TextLine, found: OpenVerdict, equations: Equations) -> str:
                 if name in line.letters and not (is_known or is_given_here):
                     return f"{latex} is a letter of the text's own, which no equation defines"
     return ""
-
-
-def _undecided(line: TextLine, equations: Equations, chosen: Chosen) -> str:
-    """That a line about steady motion was not decided there; in others it may well be wrong."""
-    if not line.says_that_it_is_steady:
-        return ""
-    steady = (meant for meant, context in weaker_meanings(line, equations) if context == "steady")
-    verdicts = (in_context(meant, equations, chosen, "steady").verdict for meant in steady)
-    is_open = any(v.answer is Answer.UNREAD and not v.holds_where for v in verdicts)
-    return "it is about steady motion, for which it was not decided" if is_open else ""
 
 
 def _kept(equations: Equations) -> list[Node]:

@@ -248,6 +248,7 @@ def _not_claimed(
         return replace(judged, stated=_OPEN_VALUE), own
     sides = (side for relation in bound.relations for side in (relation.left, relation.right))
     is_let = cues.introduces and not any(map(varies, sides))  # "Let RΩ² = 2g"
+    is_let = is_let and not _is_met_nowhere(judged)
     is_chosen = is_assumed or is_let or _ON_SEPARATRIX.search(cues.words_before) is not None
     is_chosen = is_chosen or (cues.is_at_rest and vanishes_at_rest(judged, equations))
     if is_chosen and _stays_true(judged, bound, equations):

@@ -104,17 +104,15 @@ _OSCILLATING = {
     Name("tau"): ("period",),
     Name("P"): ("period",),
     Name("f"): ("number per second",),
-    Name("nu"): ("number per second", "frequency"),
+    Name("nu"): ("number per second",),
 }
 _UPRIGHT = ("v", "V", "vert")  # labels of vertical components
-_SPINNING = (Name("omega"), Name("Omega"), Name("nu"))
+_SPINNING = (Name("omega"), Name("Omega"))
 #: Letters for the frequencies of normal modes; which of them is which is the choice of the text.
 NORMAL_MODES = {Name(n, label) for n in ("omega", "Omega") for label in ("1", "2", "3", "+", "-")}
 #: Letters that texts define for themselves as often as not: a formula that fails for the quantity
 #: proposed may be a definition, so that both answers are given.
-FREE = frozenset(
-    {"alpha", "Omega", "omega", "K", "k", "nu", "P", "p", "r", "R", "G", "J", "Gamma", "W"}
-)
+FREE = frozenset({"alpha", "Omega", "omega", "K", "k", "P", "p", "r", "R", "G", "J", "Gamma", "W"})
 
 
 def proposed_phrases(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
@@ -639,7 +637,7 @@ def _turns(mechanics: Mechanics, body: Body) -> bool:
 def _of_oscillations(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
     """Phrases for a letter that is a frequency, a period or the like about each steady motion.
 
-    Only ω, Ω and ν are frequencies that a spin decides: ω₀ is as a rule the spin itself.
+    Only ω and Ω are frequencies that a spin decides: ω₀ is as a rule the spin itself.
     """
     known = frequencies(mechanics)
     return tuple(
