@@ -95,16 +95,16 @@ _NORMAL = ("N", "R")
 _RADIUS = Name("r")
 _FORCE = Name("F")  # of all forces that are given no letter, and of all together
 _OSCILLATING = {
-    Name("omega", "0"): ("frequency",),
-    Name("omega", "n"): ("frequency",),
-    Name("omega"): ("frequency",),
-    Name("Omega"): ("frequency",),
-    Name("T"): ("period",),
-    Name("T", "0"): ("period",),
-    Name("tau"): ("period",),
-    Name("P"): ("period",),
-    Name("f"): ("number per second",),
-    Name("nu"): ("number per second",),
+    Name("omega", "0"): "frequency",
+    Name("omega", "n"): "frequency",
+    Name("omega"): "frequency",
+    Name("Omega"): "frequency",
+    Name("T"): "period",
+    Name("T", "0"): "period",
+    Name("tau"): "period",
+    Name("P"): "period",
+    Name("f"): "number per second",
+    Name("nu"): "number per second",
 }
 _UPRIGHT = ("v", "V", "vert")  # labels of vertical components
 _SPINNING = (Name("omega"), Name("Omega"))
@@ -641,8 +641,8 @@ def _of_oscillations(mechanics: Mechanics, letter: Name) -> tuple[str, ...]:
     """
     known = frequencies(mechanics)
     return tuple(
-        f"{kind} of small oscillations" + (f" about {family}" if len(known) > 1 else "")
-        for kind in _OSCILLATING[letter]
+        f"{_OSCILLATING[letter]} of small oscillations"
+        + (f" about {family}" if len(known) > 1 else "")
         for family, value in known.items()
         if letter in _SPINNING or not has_speed(mechanics, value)
     )
