@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from polhode.base import DeclarationError
+from polhode.base import PolhodeError
 from polhode.model import CurvedSupport
 from polhode.simulate import Trajectory
 from polhode.view._quantities import instants
@@ -36,22 +36,22 @@ class Picture:
 def pictures_of(run: Trajectory) -> Iterator[Picture]:
     """What shows a motion best, as far as it has that.
 
-    The path of a spinning body's axis on the sphere, with its loops or cusps; the effective
+    The path of the axis of a single spinning body on the sphere, with its loops or cusps; the effective
     potential of the tilt with its turning points; the polhode of a free body; the path of the
     centre of mass along a flat support.
     """
-    with suppress(DeclarationError):
+    with suppress(PolhodeError):
         axis = spin_axis(run).express(run.system.root)
         moved = [np.ptp(run.evaluate(c, instants(run))) for c in axis.components]
-        if max(moved) > _STILL:
+        if len(run.system.bodies) == 1 and max(moved) > _STILL:
             yield Picture(nutation, "the path of the axis on the unit sphere")
-    with suppress(DeclarationError):
+    with suppress(PolhodeError):
         tilt_of(run)
         yield Picture(effective_potential, "the effective potential with its turning points")
-    with suppress(DeclarationError):
+    with suppress(PolhodeError):
         moments_of(run, free_body(run))
         yield Picture(polhodes, "the polhode on the ellipsoid of inertia")
-    with suppress(DeclarationError):
+    with suppress(PolhodeError):
         if not isinstance(touching(run).on, CurvedSupport):
             spread = np.ptp(centre_on_support(run), axis=1)
             if np.min(spread) > _STILL * np.max(spread):
