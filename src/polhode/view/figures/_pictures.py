@@ -11,7 +11,7 @@ import numpy as np
 from polhode.base import PolhodeError
 from polhode.model import CurvedSupport
 from polhode.simulate import Trajectory
-from polhode.view._quantities import instants
+from polhode.view._quantities import equations_of, instants
 from polhode.view.figures._figure import Drawn
 from polhode.view.figures._floor import centre_on_support, floor_path, touching
 from polhode.view.figures._potential import effective_potential, tilt_of
@@ -36,14 +36,15 @@ class Picture:
 def pictures_of(run: Trajectory) -> Iterator[Picture]:
     """What shows a motion best, as far as it has that.
 
-    The path of the axis of a single spinning body on the sphere, with its loops or cusps; the effective
-    potential of the tilt with its turning points; the polhode of a free body; the path of the
-    centre of mass along a flat support.
+    The path of the axis of a single spinning body on the sphere, with its loops or cusps; the
+    effective potential of the tilt with its turning points; the polhode of a free body; the path of
+    the centre of mass along a flat support.
     """
+    system = equations_of(run).system
     with suppress(PolhodeError):
-        axis = spin_axis(run).express(run.system.root)
+        axis = spin_axis(run).express(system.root)
         moved = [np.ptp(run.evaluate(c, instants(run))) for c in axis.components]
-        if len(run.system.bodies) == 1 and max(moved) > _STILL:
+        if len(system.bodies) == 1 and max(moved) > _STILL:
             yield Picture(nutation, "the path of the axis on the unit sphere")
     with suppress(PolhodeError):
         tilt_of(run)
