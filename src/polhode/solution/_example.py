@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import islice
 from typing import Any, Protocol
 
 from polhode.algebra import Expr, compile_program
@@ -12,10 +13,13 @@ from polhode.analyse import ClosedForm, closed_form
 from polhode.base import PolhodeError
 from polhode.derive import Equations
 from polhode.simulate import Trajectory, simulate
+from polhode.view import Illustration, pictures_of
 
 _NOTHING: Mapping[str, str] = {}
 #: Periods that a figure shows.
 _PERIODS = 3
+#: Pictures that stand beneath it.
+_PICTURES = 2
 #: Smaller differences after a period are rounding.
 _SAME = 1e-9
 
@@ -41,6 +45,11 @@ class Example:
     forcing: Mapping[Any, Any] = field(default_factory=dict)
     formulas: Mapping[str, str] = field(default_factory=dict)
     groups: tuple[tuple[str, ...], ...] = ()
+
+    @cached_property
+    def pictures(self) -> tuple[Illustration, ...]:
+        """What shows the motion besides its history, as many as stand side by side."""
+        return tuple(islice(pictures_of(self.run), _PICTURES))
 
     @cached_property
     def period(self) -> float | None:

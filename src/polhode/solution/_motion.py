@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator
-from itertools import islice
 from typing import TYPE_CHECKING
 
 from polhode.algebra import Expr
-from polhode.simulate import Trajectory
 from polhode.solution._example import Example
 from polhode.solution._lines import SolutionLine, listed
 from polhode.solution._typical import given_latex, quantity_latex
-from polhode.view import Picture, figure_of_run, origin_of, pictures_of, svg_of
+from polhode.view import figure_of_run, origin_of, svg_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-_PICTURES = 2  # beneath a motion
 
 
 def motion_words(example: Example) -> Iterator[SolutionLine]:
@@ -36,13 +32,8 @@ def motion_words(example: Example) -> Iterator[SolutionLine]:
     if example.period is not None:
         against = f"$t/T$, with the period $T = {quantity_latex(example.period, 's')}$"
     said = f"The motion in the figure {started}{others}. It is drawn against {against}."
-    shown = [picture.what for picture in _pictures(example.run)]
+    shown = [picture.what for picture in example.pictures]
     yield SolutionLine(f"{said} Below, the figure shows {listed(shown)}." if shown else said)
-
-
-def _pictures(run: Trajectory) -> tuple[Picture, ...]:
-    """As many as stand side by side."""
-    return tuple(islice(pictures_of(run), _PICTURES))
 
 
 def motion_figure(example: Example) -> str:
@@ -59,7 +50,7 @@ def motion_file(example: Example, kind: str) -> bytes:
 
 def _drawn(example: Example) -> Figure:
     run = example.run
-    pictures = [picture.draw for picture in _pictures(run)]
+    pictures = [picture.draw for picture in example.pictures]
     figure = figure_of_run(run, example.groups, beneath=pictures)
     if example.period is not None:
         _in_periods(figure, example.period)

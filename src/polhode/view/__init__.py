@@ -50,7 +50,7 @@ from polhode.view.figures._figure import save_figure as save_figure
 from polhode.view.figures._figure import svg_of as svg_of
 from polhode.view.figures._history import figure_of_run as figure_of_run
 from polhode.view.figures._history import plot as plot
-from polhode.view.figures._pictures import Picture as Picture
+from polhode.view.figures._pictures import Illustration as Illustration
 from polhode.view.figures._pictures import pictures_of as pictures_of
 from polhode.view.stills import clearest_time as clearest_time
 from polhode.view.stills import movie as movie

@@ -142,9 +142,8 @@ export class Engine {
   takenAt(numbers: Numbers, time: number): number[] {
     const isOnly = this.live.contact === null;
     if (!time && numbers.begin) return numbers.begin;
-    const start = this.closed(numbers);
-    if (!time && isOnly) return start;
-    const { mode, state } = time ? this.reached(numbers, time) : this.modes.initial(start);
+    if (!time && isOnly) return this.closed(numbers);
+    const { mode, state } = time ? this.reached(numbers, time) : this.modes.initial(this.closed(numbers));
     if (isOnly) return state.slice(0, this.live.start.length);
     const { coordinates, speeds } = this.modes.shared(mode, state, time);
     return [...coordinates, ...speeds];

@@ -20,7 +20,7 @@ from polhode.view.figures._maps import OutcomeMap as OutcomeMap
 from polhode.view.figures._maps import StabilityMap as StabilityMap
 from polhode.view.figures._maps import outcome_map as outcome_map
 from polhode.view.figures._maps import stability_map as stability_map
-from polhode.view.figures._pictures import Picture as Picture
+from polhode.view.figures._pictures import Illustration as Illustration
 from polhode.view.figures._pictures import pictures_of as pictures_of
 from polhode.view.figures._potential import effective_potential as effective_potential
 from polhode.view.figures._reactions import friction_needed as friction_needed

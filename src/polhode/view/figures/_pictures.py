@@ -21,7 +21,7 @@ _STILL = 1e-6  # of a unit vector, or of the length of a path: less is no motion
 
 
 @dataclass(frozen=True)
-class Picture:
+class Illustration:
     """A figure of a motion that shows more than its history.
 
     Attributes:
@@ -33,7 +33,7 @@ class Picture:
     what: str
 
 
-def pictures_of(run: Trajectory) -> Iterator[Picture]:
+def pictures_of(run: Trajectory) -> Iterator[Illustration]:
     """What shows a motion best, as far as it has that.
 
     The path of the axis of a single spinning body on the sphere, with its loops or cusps; the
@@ -43,17 +43,17 @@ def pictures_of(run: Trajectory) -> Iterator[Picture]:
     system = equations_of(run).system
     with suppress(PolhodeError):
         axis = spin_axis(run).express(system.root)
-        moved = [np.ptp(run.evaluate(c, instants(run))) for c in axis.components]
+        moved = (np.ptp(run.evaluate(c, instants(run))) for c in axis.components)
         if len(system.bodies) == 1 and max(moved) > _STILL:
-            yield Picture(nutation, "the path of the axis on the unit sphere")
+            yield Illustration(nutation, "the path of the axis on the unit sphere")
     with suppress(PolhodeError):
         tilt_of(run)
-        yield Picture(effective_potential, "the effective potential with its turning points")
+        yield Illustration(effective_potential, "the effective potential with its turning points")
     with suppress(PolhodeError):
         moments_of(run, free_body(run))
-        yield Picture(polhodes, "the polhode on the ellipsoid of inertia")
+        yield Illustration(polhodes, "the polhode on the ellipsoid of inertia")
     with suppress(PolhodeError):
         if not isinstance(touching(run).on, CurvedSupport):
             spread = np.ptp(centre_on_support(run), axis=1)
             if np.min(spread) > _STILL * np.max(spread):
-                yield Picture(floor_path, "the path of the centre of mass, seen from above")
+                yield Illustration(floor_path, "the path of the centre of mass, seen from above")

@@ -149,6 +149,11 @@ def nutation(run: Trajectory, *, axis: Vector | None = None, ax: Axes | None = N
 
 
 def spin_axis(run: Trajectory) -> Vector:
+    """The axis that a body spins about, a unit vector along its axes.
+
+    Raises:
+        DeclarationError: where no body does.
+    """
     for body in equations_of(run).system.bodies:
         if isinstance(body.spin, About | Relative):
             return body.axes[body.spin.axis]
